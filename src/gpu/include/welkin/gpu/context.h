@@ -1,0 +1,36 @@
+#pragma once
+// An OpenGL 4.5 core context without a window (EGL). Debug messages are counted; the first ones are kept to be shown.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "welkin/core/result.h"
+
+namespace welkin::gpu {
+
+struct DeviceInfo {
+  std::string renderer, version, vendor;
+  bool software = false;
+};
+
+class Context {
+ public:
+  // `choice`: "auto" (a hardware device if EGL finds one, else software), "software", or a device index.
+  static Result<std::unique_ptr<Context>> createHeadless(const std::string& choice = "auto", bool debug = true);
+  ~Context();
+  const DeviceInfo& device() const { return device_; }
+  std::uint64_t debugMessages() const { return debugMessages_; }             // errors, undefined behaviour and warnings so far
+  const std::vector<std::string>& firstMessages() const { return messages_; }
+  void countMessage(std::string text);
+
+ private:
+  Context() = default;
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+  DeviceInfo device_;
+  std::uint64_t debugMessages_ = 0;
+  std::vector<std::string> messages_;
+};
+
+}  // namespace welkin::gpu

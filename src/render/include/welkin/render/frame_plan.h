@@ -1,0 +1,26 @@
+#pragma once
+// Which passes and data a scene needs, and for each one left out the reason in words. What is left out is not compiled, not
+// allocated and not run.
+#include <string>
+#include <vector>
+
+#include "welkin/physics/scene.h"
+
+namespace welkin {
+
+struct LeftOut {
+  std::string what;    // "octree, bricks, light, march"
+  std::string reason;  // "no clouds in the scene"
+};
+
+struct FramePlan {
+  bool clouds = false;  // octree, bricks, light, maps, march, reprojection
+  bool air = false;     // sky tables and aerial perspective
+  bool sun = false;     // light from the sun, its disc, shadows
+  std::vector<std::string> passes;  // in order
+  std::vector<LeftOut> leftOut;
+};
+
+FramePlan planFrame(const Scene& scene);
+
+}  // namespace welkin

@@ -1,0 +1,84 @@
+#pragma once
+// Draws a scene: streams the octree around the camera, runs the passes of the frame's plan, hands back pixels and numbers.
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "welkin/core/result.h"
+#include "welkin/gpu/context.h"
+#include "welkin/gpu/memory.h"
+#include "welkin/gpu/timer.h"
+#include "welkin/physics/scene.h"
+#include "welkin/render/frame_plan.h"
+#include "welkin/stream/streamer.h"
+
+namespace welkin {
+
+struct RenderSettings {
+  int width = 1280, height = 720;
+  std::uint32_t bricksPerFrame = 256;   // generated at most in one frame while flying
+  std::uint32_t workerJitterSeed = 0;   // tests of determinism: random delays in the worker
+  bool reprojection = true;             // march one pixel in 16 a frame
+  bool timing = true;                   // per-pass times (on software GL: glFinish after each pass)
+  bool waitForEdits = true;             // true: edits of frame k apply at frame k + 2, whatever it takes (deterministic); false: when ready
+};
+
+// What the frame's march and the checks counted, whole picture.
+struct FrameCounters {
+  std::uint64_t nanPixels = 0;       // pixels with a NaN or Inf in any pass; counted, shown in magenta
+  std::uint64_t holes = 0;           // rays that met a place without data where data was promised
+  std::uint64_t marchedPixels = 0;   // rays marched this frame
+  std::uint64_t rejectedPixels = 0;  // of these, pixels whose history was not valid
+  std::uint64_t cells = 0, samples = 0;  // map look-ups and brick samples of all rays
+};
+
+struct FrameStats {
+  std::uint64_t frame = 0;
+  std::map<std::string, gpu::PassTime> passes;
+  double wall_ms = 0, cpu_ms = 0, wait_ms = 0;   // wait: for the worker's edits, outside the pass times
+  FrameCounters counters;
+  ResidencyStats residency;
+  std::uint32_t bricksGenerated = 0, bricksLit = 0;
+  std::uint64_t bytesUsed = 0, bytesBudget = 0, frameTargetBytes = 0;
+  double sampleDetail = 0;
+};
+
+enum class FrameMode { Reprojected, Full };  // Full marches every pixel and writes history too
+
+struct Image8 {  // RGBA, top row first, tone-mapped sRGB
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+struct ImageF {  // RGBA linear radiance before exposure, top row first; A = 1 - cloud transmittance
+  int width = 0, height = 0;
+  std::vector<float> rgba;
+};
+
+class Renderer {
+ public:
+  static Result<std::unique_ptr<Renderer>> create(gpu::Context& context, const Scene& scene, const RenderSettings& settings);
+  ~Renderer();
+
+  // One frame: edits are applied, passes run, the next edits are asked for.
+  FrameStats frame(const View& view, FrameMode mode = FrameMode::Reprojected);
+  // Streams (draws nothing) until nothing is pending for this view, then returns. `progress` gets 0..1 and may return false to stop.
+  FrameStats settle(const View& view, const std::function<bool(double)>& progress = {});
+  Image8 image() const;
+  ImageF radiance() const;
+  const FramePlan& plan() const;
+  const Scene& scene() const;
+  const gpu::MemoryAccount& memory() const;
+  std::vector<std::string> notes() const;  // one line each: what a user should know (data that was missing, ...)
+
+ private:
+  Renderer();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// The least budget that works for this scene, in bytes, at this picture size (docs/memory.md says how it is made up).
+std::uint64_t leastBudget(const Scene& scene);
+
+}  // namespace welkin

@@ -1,0 +1,85 @@
+#pragma once
+// Fixed-point octree addressing. The root cube has 2^32 steps an axis; a position is a uvec3, a node is (corner, level) with
+// its size 2^(32-level) steps. Everything here is bit tests: no chain of float subtractions (DESIGN, Precision).
+#include "welkin/shared/prelude.glsl.h"
+WK_BEGIN
+
+WK_CONST uint kMaxDepth = 24u;
+WK_CONST uint kBrickEdge = 8u;             // corner samples an axis
+WK_CONST uint kBrickCells = 7u;            // cells an axis
+WK_CONST uint kNoGroup = 0xFFFFFFFFu;      // a node without children
+WK_CONST uint kZeroBrick = 0u;             // brick 0 is resident from the start and holds zeros
+WK_CONST uint kBrickBits = 22u;            // 4 Mi bricks = 8 GiB
+WK_CONST uint kBrickMask = 0x3FFFFFu;
+WK_CONST uint kMapShift = 6u;              // an octree map has 64^3 cells
+WK_CONST uint kMapEdge = 64u;
+
+// A node as the GPU stores it, and a map entry: `word` packs the brick (22 bits), the maximum of the resident subtree as a code
+// (5 bits, 0 = empty) and a level (5 bits: in a map entry the level of the node that the word describes; 0 in the node buffer).
+// `group` is the index of the first of eight children, or kNoGroup.
+struct NodeWords {
+  uint word;
+  uint group;
+};
+
+WK_FN uint packWord(uint brick, uint maxCode, uint level) { return brick | (maxCode << 22u) | (level << 27u); }
+WK_FN uint wordBrick(uint word) { return word & kBrickMask; }
+WK_FN uint wordMaxCode(uint word) { return (word >> 22u) & 31u; }
+WK_FN uint wordLevel(uint word) { return word >> 27u; }
+WK_FN bool wordEmpty(uint word) { return wordMaxCode(word) == 0u; }
+
+// Upper bound that a code stands for, as a fraction of the source's greatest extinction: code c in 1..31 is 2^(-(31-c)/2).
+WK_FN float maxCodeValue(uint code) { return code == 0u ? F(0.0) : exp2(F(-0.5) * float(31u - code)); }
+
+// All positions of a node of this level share the bits above this mask. (32-bit shift by the level: level 0 gives all ones.)
+WK_FN uint levelMask(uint level) { return 0xFFFFFFFFu >> level; }
+
+// Node size in steps. Exact: a power of two.
+WK_FN float levelSteps(uint level) { return float(1u << (31u - level)) * F(2.0); }
+
+WK_FN uvec3 nodeCorner(uvec3 p, uint level) { return p & uvec3(~levelMask(level)); }
+
+// Which of its eight children a node of `level` has position p in: bit 0 x, bit 1 y, bit 2 z.
+WK_FN uint childOctant(uvec3 p, uint level) {
+  uint s = 31u - level;
+  return ((p.x >> s) & 1u) | (((p.y >> s) & 1u) << 1u) | (((p.z >> s) & 1u) << 2u);
+}
+
+WK_FN uvec3 childCorner(uvec3 corner, uint level, uint octant) {
+  uint s = 31u - level;
+  return corner + uvec3((octant & 1u) << s, ((octant >> 1u) & 1u) << s, ((octant >> 2u) & 1u) << s);
+}
+
+// Position of corner sample i (0..7 an axis) of a brick: corner + floor(i * size / 7), the same for the neighbour that shares it.
+// size = 7 q + r keeps the product inside 32 bits. The far corner of the last node of the root saturates at 2^32 - 1.
+WK_FN uint brickSampleStep(uint i, uint level) {
+  uint mask = levelMask(level);  // size - 1
+  uint q = mask / 7u;
+  uint r = mask - q * 7u + 1u;   // size = 7 q + r, r in 1..7
+  return i * q + (i * r) / 7u;
+}
+WK_FN uint saturatingAdd(uint a, uint b) { return a > 0xFFFFFFFFu - b ? 0xFFFFFFFFu : a + b; }
+WK_FN uvec3 brickSample(uvec3 corner, uint level, uvec3 i) {
+  return uvec3(saturatingAdd(corner.x, brickSampleStep(i.x, level)), saturatingAdd(corner.y, brickSampleStep(i.y, level)),
+               saturatingAdd(corner.z, brickSampleStep(i.z, level)));
+}
+
+// Distance along the ray, in units where `stepsPerUnit` = direction in steps (invSteps its reciprocal, +-huge for 0), from the
+// position p to the far side of its node of `level`. Never negative. p is inside by construction of the mask.
+WK_FN float nodeExit(uvec3 p, uint level, vec3 dirSteps, vec3 invSteps) {
+  uint mask = levelMask(level);
+  uvec3 lo = p & uvec3(mask);
+  vec3 room = vec3(dirSteps.x > F(0.0) ? float(mask - lo.x) + F(1.0) : float(lo.x),
+                   dirSteps.y > F(0.0) ? float(mask - lo.y) + F(1.0) : float(lo.y),
+                   dirSteps.z > F(0.0) ? float(mask - lo.z) + F(1.0) : float(lo.z));
+  vec3 t = room * abs(invSteps);
+  return min(t.x, min(t.y, t.z));
+}
+
+// Coordinate of p inside its node of `level`, 0..1 an axis.
+WK_FN vec3 nodeLocal(uvec3 p, uint level) {
+  uvec3 lo = p & uvec3(levelMask(level));
+  return vec3(float(lo.x), float(lo.y), float(lo.z)) * (F(1.0) / levelSteps(level));
+}
+
+WK_END
