@@ -1,0 +1,96 @@
+#include "welkin/gpu/resources.h"
+
+#include <fmt/format.h>
+
+namespace welkin::gpu {
+namespace {
+
+Error overBudget(const MemoryAccount& account, const std::string& what, std::size_t bytes) {
+  return Error{fmt::format("memory: {} needs {:.1f} MiB, but {:.1f} of the budget of {:.1f} MiB are in use", what, double(bytes) / 0x1p20,
+                           double(account.used()) / 0x1p20, double(account.budget()) / 0x1p20)};
+}
+
+}  // namespace
+
+Result<Buffer> Buffer::create(MemoryAccount& account, std::string what, std::size_t bytes, GLbitfield flags) {
+  if (!account.charge(what, bytes)) return overBudget(account, what, bytes);
+  Buffer buffer;
+  buffer.bytes_ = bytes;
+  buffer.what_ = std::move(what);
+  buffer.account_ = &account;
+  glCreateBuffers(1, &buffer.id_);
+  glNamedBufferStorage(buffer.id_, static_cast<GLsizeiptr>(bytes), nullptr, flags);
+  buffer.clear();
+  return buffer;
+}
+
+Buffer::~Buffer() {
+  if (!id_) return;
+  glDeleteBuffers(1, &id_);
+  account_->release(what_, bytes_);
+}
+
+void Buffer::swap(Buffer& o) noexcept {
+  std::swap(id_, o.id_);
+  std::swap(bytes_, o.bytes_);
+  std::swap(what_, o.what_);
+  std::swap(account_, o.account_);
+}
+
+void Buffer::upload(std::size_t offset, std::span<const std::byte> data) const {
+  if (!data.empty()) glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+void Buffer::download(std::size_t offset, std::span<std::byte> data) const {
+  if (!data.empty()) glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
+}
+
+void Buffer::clear() const { glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
+
+std::size_t formatBytes(GLenum format) {
+  switch (format) {
+    case GL_R8: case GL_R8UI: return 1;
+    case GL_R16: case GL_R16F: case GL_RG8: case GL_R16UI: return 2;
+    case GL_RG16: case GL_RG16F: case GL_R32F: case GL_R32UI: case GL_RGBA8: case GL_SRGB8_ALPHA8: return 4;
+    case GL_RGBA16F: case GL_RGBA16: case GL_RG32F: case GL_RG32UI: return 8;
+    case GL_RGBA32F: case GL_RGBA32UI: return 16;
+    default: return 0;
+  }
+}
+
+Result<Texture> Texture::create(MemoryAccount& account, std::string what, const TextureSpec& spec) {
+  const std::size_t texel = formatBytes(spec.format);
+  if (texel == 0) return Error{fmt::format("memory: {}: texture format 0x{:x} is not in formatBytes()", what, spec.format)};
+  const std::size_t bytes = texel * static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * static_cast<std::size_t>(spec.depth);
+  if (!account.charge(what, bytes, spec.frameTarget)) return overBudget(account, what, bytes);
+  Texture texture;
+  texture.bytes_ = bytes;
+  texture.spec_ = spec;
+  texture.what_ = std::move(what);
+  texture.account_ = &account;
+  glCreateTextures(spec.target, 1, &texture.id_);
+  if (spec.target == GL_TEXTURE_2D) glTextureStorage2D(texture.id_, 1, spec.format, spec.width, spec.height);
+  else glTextureStorage3D(texture.id_, 1, spec.format, spec.width, spec.height, spec.depth);
+  glTextureParameteri(texture.id_, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(spec.filter));
+  glTextureParameteri(texture.id_, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(spec.filter));
+  for (GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) glTextureParameteri(texture.id_, axis, static_cast<GLint>(spec.wrap));
+  const bool integer = spec.format == GL_R8UI || spec.format == GL_R16UI || spec.format == GL_R32UI || spec.format == GL_RG32UI || spec.format == GL_RGBA32UI;
+  glClearTexImage(texture.id_, 0, integer ? GL_RED_INTEGER : GL_RED, integer ? GL_UNSIGNED_INT : GL_FLOAT, nullptr);
+  return texture;
+}
+
+Texture::~Texture() {
+  if (!id_) return;
+  glDeleteTextures(1, &id_);
+  account_->release(what_, bytes_, spec_.frameTarget);
+}
+
+void Texture::swap(Texture& o) noexcept {
+  std::swap(id_, o.id_);
+  std::swap(bytes_, o.bytes_);
+  std::swap(spec_, o.spec_);
+  std::swap(what_, o.what_);
+  std::swap(account_, o.account_);
+}
+
+}  // namespace welkin::gpu
