@@ -1,0 +1,46 @@
+# The front door. `make fly` and `make test` work on a fresh Debian 12 that has g++, cmake, make and git.
+BUILD ?= build
+OUT ?= out
+FLY ?= # further options of `welkin fly`, for instance FLY="--size 640x360"
+JOBS ?= $(shell nproc)
+
+.PHONY: all help build fly test data setup extras check-orbit install format format-check clean
+all: build
+
+help: ## this list
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /\1\t/' | expand -t 16
+
+setup: ## install what is missing (Debian packages)
+	@scripts/setup.sh
+
+data: ## fetch the cover picture and the albedo of the Earth
+	@scripts/fetch_data.sh
+
+build: setup ## build the program into build/
+	@scripts/build.sh $(BUILD) $(JOBS) OFF
+
+fly: build data ## replay the flight from orbit to the ground into out/orbit-to-ground/
+	@scripts/fly.sh $(BUILD) benchmarks/orbit-to-ground.json $(OUT)/orbit-to-ground $(FLY)
+
+test: setup data ## build and run all tests
+	@scripts/build.sh $(BUILD) $(JOBS) ON
+	@scripts/test.sh $(BUILD)
+
+check-orbit: setup data ## what must hold for the flight, line by line
+	@scripts/build.sh $(BUILD) $(JOBS) ON
+	@/usr/bin/python3 scripts/check_orbit.py --build $(BUILD) --out $(OUT)/check-orbit
+
+extras: build data ## the documented pictures at full size, and the zoom series
+	@scripts/extras.sh $(BUILD) $(OUT)/pictures
+
+install: build ## install to PREFIX (default /usr/local)
+	@cmake --install $(BUILD) $(if $(PREFIX),--prefix $(PREFIX))
+
+format: setup ## clang-format over the sources
+	@scripts/format.sh -i
+
+format-check: setup
+	@scripts/format.sh --dry-run --Werror
+
+clean: ## remove what was built
+	rm -rf $(BUILD) $(OUT)

@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""Writes the Earth scene, the four benchmark poses, the scene of the flight, and one scene per reason to leave passes out.
+
+All of them share one planet, one air and one sun, so they are written by one program. Run it after a change here;
+`--check` says whether the files in the repository are what it writes.
+"""
+
+import json
+
+from globe import RADIUS_M, subsolar_deg, write_or_check
+
+# The benchmark site: the frontal band of a South Atlantic cyclone, seen along its length. Of the cover picture's texels
+# within 40 degrees of the heading and 330 km, 98 % have more than half cover.
+SITE = {"latitude_deg": -33.5, "longitude_deg": -28.0}
+HEADING_DEG = 330.0
+SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 30.0, 48.0  # the poses look 60 degrees to the left of the sun
+EXPOSURE_EV = 2.0
+
+PLANET = {"radius_m": RADIUS_M, "albedo": [0.06, 0.07, 0.10]}
+# Rayleigh, Mie and ozone of Hillaire (2020), table 1, at 680, 550, 440 nm.
+ATMOSPHERE = {
+    "top_m": 100000.0,
+    "layers": [
+        {"name": "rayleigh", "profile": {"type": "exponential", "scale_height_m": 8000.0},
+         "scattering_per_m": [5.802e-6, 13.558e-6, 33.1e-6], "absorption_per_m": [0.0, 0.0, 0.0],
+         "phase": {"type": "rayleigh"}},
+        {"name": "mie", "profile": {"type": "exponential", "scale_height_m": 1200.0},
+         "scattering_per_m": [3.996e-6, 3.996e-6, 3.996e-6], "absorption_per_m": [0.444e-6, 0.444e-6, 0.444e-6],
+         "phase": {"type": "cornette-shanks", "g": 0.8}},
+        {"name": "ozone", "profile": {"type": "tent", "peak_m": 25000.0, "half_width_m": 15000.0},
+         "scattering_per_m": [0.0, 0.0, 0.0], "absorption_per_m": [0.650e-6, 1.881e-6, 0.085e-6],
+         "phase": {"type": "isotropic"}},
+    ],
+}
+
+
+def sun():
+    lat, lon = subsolar_deg(SITE["latitude_deg"], SITE["longitude_deg"], SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG)
+    return {"irradiance": [1.0, 1.0, 1.0], "angular_radius_rad": 0.004675, "latitude_deg": round(lat, 9),
+            "longitude_deg": round(lon, 9)}
+
+
+def view(altitude_m, pitch_deg, latitude_deg=SITE["latitude_deg"], longitude_deg=SITE["longitude_deg"],
+         heading_deg=HEADING_DEG, fov_deg=58.0, **more):
+    return {"latitude_deg": latitude_deg, "longitude_deg": longitude_deg, "altitude_m": float(altitude_m),
+            "heading_deg": float(heading_deg), "pitch_deg": float(pitch_deg), "roll_deg": 0.0, "fov_deg": float(fov_deg), **more}
+
+
+def scene(name, data, quality, views):
+    """A complete scene; `data` is the way from its folder to data/."""
+    return {"name": name, "planet": {**PLANET, "albedo_map": f"{data}/earth.png"}, "atmosphere": ATMOSPHERE, "sun": sun(),
+            "clouds": {"sources": [{"type": "cover-map", "file": f"{data}/clouds.png"}]},
+            "quality": quality, "output": {"exposure_ev": EXPOSURE_EV}, "views": views}
+
+
+# Every view of the eight documented pictures stands where the cover picture has the cloud that it is about.
+EARTH_VIEWS = {
+    "disc": view(30_000_000, -90, latitude_deg=-14.0, longitude_deg=-38.0, heading_deg=0, fov_deg=26),
+    "limb": view(250_000, -15, latitude_deg=-48.0, longitude_deg=-20.0, heading_deg=335, fov_deg=40),
+    "orbit": view(400_000, -25),
+    "cyclone": view(120_000, -48, latitude_deg=-42.4, longitude_deg=-49.6, heading_deg=345),
+    "layers": view(9_000, -3),
+    "inside": view(2_000, 6, latitude_deg=-32.2, longitude_deg=-30.5, heading_deg=60),
+    "overcast": view(2, 12, latitude_deg=-32.2, longitude_deg=-30.5, heading_deg=300),
+    "sunset": view(2, 9, latitude_deg=6.3, longitude_deg=77.6, heading_deg=270, fov_deg=50),
+}
+ZOOM_FOVS_DEG = [58, 30, 10, 3, 1, 0.3, 0.1]
+ZOOM_VIEWS = {f"zoom-{fov:g}": view(400_000, -25, fov_deg=fov) for fov in ZOOM_FOVS_DEG}
+
+POSES = {
+    "space": view(1.25 * RADIUS_M, -90),  # 2.25 radii from the centre
+    "orbit": view(400_000, -25),
+    "near": view(9_000, -3),
+    "ground": view(1.8, 15),
+}
+
+POSE_QUALITY = {"budget": "128MiB", "depth": 12, "seed": 1}
+
+
+def without(base, *sections):
+    return {k: v for k, v in base.items() if k not in sections}
+
+
+def files():
+    out = {"scenes/earth.json": scene("Earth", "../data", {"budget": "512MiB", "depth": 16, "seed": 1},
+                                      {**EARTH_VIEWS, **ZOOM_VIEWS}),
+           "benchmarks/orbit-to-ground.scene.json": scene("orbit to ground", "../data",
+                                                          {"budget": "256MiB", "depth": 16, "seed": 1}, {})}
+    for name, pose in POSES.items():
+        out[f"benchmarks/poses/{name}.json"] = scene(f"pose {name}", "../../data", POSE_QUALITY, {name: pose})
+    everything = scene("nothing left out", "../../data", POSE_QUALITY, {"orbit": POSES["orbit"]})
+    out["benchmarks/left-out/nothing.json"] = everything
+    for section in ["clouds", "atmosphere", "sun"]:
+        out[f"benchmarks/left-out/no-{section}.json"] = {**without(everything, section), "name": f"no {section}"}
+    return {name: json.dumps(content, indent=2) + "\n" for name, content in out.items()}
+
+
+if __name__ == "__main__":
+    write_or_check(files())
