@@ -1,0 +1,124 @@
+// Scene to JSON. Numbers are written with as many digits as bring the same double back.
+#include <fmt/format.h>
+
+#include "scene_io_json.h"
+#include "welkin/core/files.h"
+#include "welkin/core/units.h"
+#include "welkin/physics/scene_io.h"
+
+namespace welkin {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Writer {
+  fs::path baseFolder;
+
+  std::string dataFile(const fs::path& file) const {
+    if (baseFolder.empty()) return file.generic_string();
+    return fs::absolute(file).lexically_normal().lexically_proximate(fs::absolute(baseFolder).lexically_normal()).generic_string();
+  }
+
+  Json airLayer(const AirLayer& layer) const {
+    Json out{{"name", layer.name}};
+    if (const auto* e = std::get_if<ExponentialProfile>(&layer.profile))
+      out["profile"] = {{"type", "exponential"}, {"scale_height_m", e->scaleHeight_m}};
+    if (const auto* t = std::get_if<TentProfile>(&layer.profile)) {
+      out["profile"] = {{"type", "tent"}, {"peak_m", t->peak_m}, {"half_width_m", t->halfWidth_m}};
+    }
+    if (const auto* u = std::get_if<UniformProfile>(&layer.profile))
+      out["profile"] = {{"type", "uniform"}, {"base_m", u->base_m}, {"top_m", u->top_m}};
+    out["scattering_per_m"] = layer.scattering_per_m;
+    out["absorption_per_m"] = layer.absorption_per_m;
+    switch (layer.phase) {
+      case PhaseType::Rayleigh:
+        out["phase"]["type"] = "rayleigh";
+        break;
+      case PhaseType::Isotropic:
+        out["phase"]["type"] = "isotropic";
+        break;
+      case PhaseType::CornetteShanks:
+        out["phase"] = {{"type", "cornette-shanks"}, {"g", layer.g}};
+        break;
+      case PhaseType::HenyeyGreenstein:
+        out["phase"] = {{"type", "henyey-greenstein"}, {"g", layer.g}};
+        break;
+    }
+    return out;
+  }
+
+  Json cloudLayer(const CloudLayer& l) const {
+    return {{"name", l.name},
+            {"base_m", l.base_m},
+            {"top_m", l.top_m},
+            {"base_fade_m", l.baseFade_m},
+            {"top_fade_m", l.topFade_m},
+            {"extinction_per_m", l.extinction_per_m},
+            {"cover_gain", l.coverGain},
+            {"cover_bias", l.coverBias},
+            {"type_low", l.typeLow},
+            {"type_high", l.typeHigh},
+            {"cell_m", l.cell_m},
+            {"octaves", l.octaves},
+            {"gain", l.gain},
+            {"billow", l.billow},
+            {"softness", l.softness},
+            {"taper", l.taper},
+            {"top_follows_cover", l.topFollowsCover}};
+  }
+
+  Json cloudSource(const CloudSource& source) const {
+    Json out;
+    if (const auto* sphere = std::get_if<SphereSource>(&source)) {
+      out["type"] = "sphere";
+      out["centre_m"] = Json::array({sphere->centre_m.x, sphere->centre_m.y, sphere->centre_m.z});
+      out["radius_m"] = sphere->radius_m;
+      out["extinction_per_m"] = sphere->extinction_per_m;
+    } else if (const auto* slab = std::get_if<SlabSource>(&source)) {
+      out = {{"type", "slab"}, {"base_m", slab->base_m}, {"top_m", slab->top_m}, {"extinction_per_m", slab->extinction_per_m}};
+    } else {
+      const auto& layers = std::get<LayersSource>(source);
+      out["type"] = layers.coverMap.empty() ? "layers" : "cover-map";
+      if (!layers.coverMap.empty()) out["file"] = dataFile(layers.coverMap);
+      for (const auto& layer : layers.layers) out["layers"].push_back(cloudLayer(layer));
+    }
+    return out;
+  }
+};
+
+}  // namespace
+
+std::string sceneToJson(const Scene& scene, const fs::path& baseFolder, int indent) {
+  const Writer writer{baseFolder};
+  Json out;
+  if (!scene.name.empty()) out["name"] = scene.name;
+  out["planet"] = {{"radius_m", scene.planet.radius_m}, {"albedo", scene.planet.albedo}};
+  if (!scene.planet.albedoMap.empty()) out["planet"]["albedo_map"] = writer.dataFile(scene.planet.albedoMap);
+  if (scene.atmosphere) {
+    out["atmosphere"] = {{"top_m", scene.atmosphere->top_m}, {"model", scene.atmosphere->model}, {"layers", Json::array()}};
+    for (const auto& layer : scene.atmosphere->layers) out["atmosphere"]["layers"].push_back(writer.airLayer(layer));
+  }
+  if (scene.sun) {
+    const auto& d = scene.sun->direction_planet;
+    out["sun"]["irradiance"] = scene.sun->irradiance;
+    out["sun"]["angular_radius_rad"] = scene.sun->angularRadius_rad;
+    out["sun"]["direction"] = Json::array({d.x, d.y, d.z});
+  }
+  if (scene.clouds) {
+    out["clouds"]["sources"] = Json::array();
+    for (const auto& source : scene.clouds->sources) out["clouds"]["sources"].push_back(writer.cloudSource(source));
+    out["clouds"]["combine"] = scene.clouds->combineMax ? "max" : "add";
+  }
+  for (const auto& [name, view] : scene.views) out["views"][name] = detail::writeView(view);
+  const auto& q = scene.quality;
+  out["quality"] = {{"budget", bytesExact(q.budget_bytes)}, {"depth", q.depth}, {"step", q.step}, {"detail", q.detail}, {"seed", q.seed}};
+  out["output"]["exposure_ev"] = scene.exposure_ev;
+  return out.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Result<void> saveScene(const Scene& scene, const fs::path& file) {
+  return writeFile(file, sceneToJson(scene, file.has_parent_path() ? file.parent_path() : fs::path(".")) + "\n");
+}
+
+}  // namespace welkin
