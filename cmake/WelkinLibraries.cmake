@@ -14,6 +14,7 @@ find_library(LODEPNG_LIBRARY lodepng REQUIRED)
 add_library(welkin_lodepng INTERFACE)
 target_include_directories(welkin_lodepng SYSTEM INTERFACE ${LODEPNG_INCLUDE})
 target_link_libraries(welkin_lodepng INTERFACE ${LODEPNG_LIBRARY})
+set_target_properties(welkin_lodepng PROPERTIES EXPORT_NAME lodepng)
 
 # glad writes the OpenGL and EGL loaders at configure time.
 find_program(GLAD glad REQUIRED)
@@ -26,8 +27,10 @@ if(NOT EXISTS ${GLAD_DIR}/src/gl.c OR NOT EXISTS ${GLAD_DIR}/src/egl.c)
     c --loader COMMAND_ERROR_IS_FATAL ANY)
 endif()
 add_library(welkin_glad STATIC ${GLAD_DIR}/src/gl.c ${GLAD_DIR}/src/egl.c)
-target_include_directories(welkin_glad SYSTEM PUBLIC $<BUILD_INTERFACE:${GLAD_DIR}/include>)
+target_include_directories(welkin_glad SYSTEM PUBLIC
+  $<BUILD_INTERFACE:${GLAD_DIR}/include> $<INSTALL_INTERFACE:include/welkin/glad-4.5>)
 target_link_libraries(welkin_glad PUBLIC ${CMAKE_DL_LIBS})
+set_target_properties(welkin_glad PROPERTIES EXPORT_NAME glad)
 
 # Warnings are errors. -ffp-contract=off: the C++ twin of a shader function rounds after every operation, as GLSL does.
 add_library(welkin_warnings INTERFACE)

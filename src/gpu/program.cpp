@@ -8,6 +8,9 @@
 #include <set>
 #include <sstream>
 
+// A program that uses an installed Welkin defines it (cmake/welkin_shader_folder.cpp); nobody else does.
+extern "C" __attribute__((weak)) const char* welkinFileBesideShaders();
+
 namespace welkin::gpu {
 namespace {
 
@@ -19,6 +22,7 @@ struct Loader {
   std::vector<std::string> open;         // to find cycles
   std::vector<std::string> names;        // index in #line
   std::string out;
+  Defines defines;                       // an include may name a define that holds the path
 
   Result<void> add(const std::string& path, const std::string& from) {
     for (const auto& name : open)
@@ -38,6 +42,8 @@ struct Loader {
       const auto first = line.find_first_not_of(" \t");
       const bool include = first != std::string::npos && line.compare(first, 9, "#include ") == 0;
       if (include) {
+        for (const auto& [name, value] : defines)
+          if (line.find(" " + name) != std::string::npos) line = "#include \"" + value + "\"";
         const auto a = line.find('"'), b = line.rfind('"');
         if (a != std::string::npos && b > a) {
           if (auto r = add(line.substr(a + 1, b - a - 1), fmt::format("{}:{}", path, n)); !r) return r;
@@ -66,14 +72,21 @@ std::string compileLog(GLuint shader) {
 
 std::string shaderFolder() {
   if (const char* env = std::getenv("WELKIN_SHADERS")) return env;
-  for (const char* candidate : {WELKIN_SOURCE_SHADERS, WELKIN_INSTALL_SHADERS})
-    if (fs::exists(candidate)) return candidate;
+  std::vector<fs::path> candidates;
+  if (welkinFileBesideShaders) candidates.push_back(fs::path(welkinFileBesideShaders()).parent_path() / "shaders");
+  std::error_code ignored;  // without /proc the path stays empty and the next candidates count
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  candidates.push_back(program.parent_path().parent_path() / "share/welkin/shaders");
+  candidates.insert(candidates.end(), {WELKIN_SOURCE_SHADERS, WELKIN_INSTALL_SHADERS});
+  for (const fs::path& candidate : candidates)
+    if (fs::exists(candidate, ignored)) return candidate.string();
   return "shaders";
 }
 
-Result<std::string> loadShaderSource(const std::string& path) {
+Result<std::string> loadShaderSource(const std::string& path, const Defines& defines) {
   const fs::path shaders = shaderFolder();
   Loader loader;
+  loader.defines = defines;
   loader.roots = {shaders, shaders / "include", shaders.parent_path() / "src" / "shared" / "include"};
   if (auto r = loader.add(path, "the program"); !r) return r.error();
   std::string legend;
@@ -82,10 +95,11 @@ Result<std::string> loadShaderSource(const std::string& path) {
 }
 
 Result<Program> Program::compute(const std::string& path, const Defines& defines) {
-  auto body = loadShaderSource(path);
+  auto body = loadShaderSource(path, defines);
   if (!body) return body.error();
   std::string source = "#version 450 core\n";
-  for (const auto& [name, value] : defines) source += fmt::format("#define {} {}\n", name, value);
+  for (const auto& [name, value] : defines)
+    if (value.find(".glsl") == std::string::npos) source += fmt::format("#define {} {}\n", name, value);
   source += *body;
   const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
   const char* text = source.c_str();
