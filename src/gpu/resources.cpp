@@ -12,10 +12,11 @@ Error overBudget(const MemoryAccount& account, const std::string& what, std::siz
 
 }  // namespace
 
-Result<Buffer> Buffer::create(MemoryAccount& account, std::string what, std::size_t bytes, GLbitfield flags) {
-  if (!account.charge(what, bytes)) return overBudget(account, what, bytes);
+Result<Buffer> Buffer::create(MemoryAccount& account, std::string what, std::size_t bytes, GLbitfield flags, bool frameTarget) {
+  if (!account.charge(what, bytes, frameTarget)) return overBudget(account, what, bytes);
   Buffer buffer;
   buffer.bytes_ = bytes;
+  buffer.frameTarget_ = frameTarget;
   buffer.what_ = std::move(what);
   buffer.account_ = &account;
   glCreateBuffers(1, &buffer.id_);
@@ -27,12 +28,13 @@ Result<Buffer> Buffer::create(MemoryAccount& account, std::string what, std::siz
 Buffer::~Buffer() {
   if (!id_) return;
   glDeleteBuffers(1, &id_);
-  account_->release(what_, bytes_);
+  account_->release(what_, bytes_, frameTarget_);
 }
 
 void Buffer::swap(Buffer& o) noexcept {
   std::swap(id_, o.id_);
   std::swap(bytes_, o.bytes_);
+  std::swap(frameTarget_, o.frameTarget_);
   std::swap(what_, o.what_);
   std::swap(account_, o.account_);
 }

@@ -15,8 +15,8 @@ namespace welkin::gpu {
 
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
-// The source with includes resolved, without #version (a line that includes a file takes no other text).
-Result<std::string> loadShaderSource(const std::string& path);
+// The source with includes resolved, without #version. `#include NAME` takes the path from the define NAME.
+Result<std::string> loadShaderSource(const std::string& path, const Defines& defines = {});
 
 class Program {
  public:

@@ -16,7 +16,8 @@ class Buffer {
  public:
   Buffer() = default;
   // Immutable storage, zero-filled. `flags` as glNamedBufferStorage; GL_DYNAMIC_STORAGE_BIT lets upload() work.
-  static Result<Buffer> create(MemoryAccount& account, std::string what, std::size_t bytes, GLbitfield flags = GL_DYNAMIC_STORAGE_BIT);
+  static Result<Buffer> create(MemoryAccount& account, std::string what, std::size_t bytes, GLbitfield flags = GL_DYNAMIC_STORAGE_BIT,
+                               bool frameTarget = false);
   Buffer(Buffer&& o) noexcept { swap(o); }
   Buffer& operator=(Buffer&& o) noexcept { swap(o); return *this; }
   ~Buffer();
@@ -32,6 +33,7 @@ class Buffer {
  private:
   GLuint id_ = 0;
   std::size_t bytes_ = 0;
+  bool frameTarget_ = false;
   std::string what_;
   MemoryAccount* account_ = nullptr;
 };

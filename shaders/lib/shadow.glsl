@@ -1,0 +1,39 @@
+// Optical depth towards the sun, through the resident octree.
+#include "welkin/shared/camera.glsl.h"
+#include "lib/walk.glsl"
+
+const float kShadowReach = 1.5;     // a node is sampled up to this many times its size from the start of the ray: voxels of 1/10 distance
+const float kOpaque = 200.0;        // optical depth past which no light is left: exp(-200 / 4) in the widest octave
+const int kMaxVisits = 256;         // well over the worst case of 30 levels of 6 cells
+
+float sunDepth(dvec3 start_planet) {
+  vec3 dir = tree.sunDir.xyz;
+  double r = length(start_planet);
+  double radius = double(tree.planetRadius_m);
+  double b = dot(start_planet, dvec3(dir));
+  double top = radius + double(tree.bandTop_m);
+  Interval shell = sphereInterval(b, (r - top) * (r + top));
+  Interval ground = sphereInterval(b, (r - radius) * (r + radius));
+  if (shell.near > shell.far) return 0.0;
+  if (ground.near <= ground.far && r > radius) return kOpaque;  // behind the planet
+  Walk walk = startWalk(start_planet, dir);
+  float t = shell.near, end = shell.far, depth = 0.0;
+  for (int visit = 0; visit < kMaxVisits && t < end && depth < kOpaque; ++visit) {
+    uvec3 p = walkTo(walk, t);
+    uint level = detailAt(kShadowReach * tree.rootSize_m / max(t, 1.0), tree.depth).level;
+    uint word = lookUp(p, level, tree.mapBase);
+    uint at = wordLevel(word);
+    float next = min(t + nodeExit(p, at, walk.dirSteps, walk.metrePerStep) + pastExit(t), end);
+    if (!wordEmpty(word)) {
+      float inverseSize = 7.0 / levelSteps(at);
+      vec3 local = nodeLocal(p, at) * 7.0;
+      vec3 slope = walk.dirSteps * inverseSize;
+      // two midpoint samples resolve a node of seven cells well enough for a depth that is stored on a 4^3 lattice
+      float half_m = 0.5 * (next - t);
+      float sum = sampleBrick(wordBrick(word), local + slope * (0.5 * half_m)).r + sampleBrick(wordBrick(word), local + slope * (1.5 * half_m)).r;
+      depth += sum * half_m * tree.maxExtinction_per_m;
+    }
+    t = next;
+  }
+  return min(depth, kOpaque);
+}

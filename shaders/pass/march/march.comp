@@ -1,0 +1,79 @@
+// Marches the clouds of a set of pixels: all of them, one in 16, or a list of those whose history is not valid.
+#include "lib/cloud_march.glsl"
+#include "lib/shadow.glsl"
+#include "welkin/shared/counters.glsl.h"
+#if OPT_AIR
+#include "lib/air.glsl"
+layout(binding = WK_SKY_TRANSMITTANCE_UNIT) uniform sampler2D u_skyTransmittance;
+layout(binding = WK_SKY_IRRADIANCE_UNIT) uniform sampler2D u_skyIrradiance;
+layout(std430, binding = WK_AIR_PARAMS_BINDING) readonly buffer AirBuffer { AirParams air; };
+#endif
+
+#define PIXELS_ALL 0
+#define PIXELS_SIXTEENTH 1
+#define PIXELS_LIST 2
+#if PIXELS == PIXELS_LIST
+layout(local_size_x = 64) in;
+#else
+layout(local_size_x = 8, local_size_y = 8) in;
+#endif
+layout(std140, binding = WK_CAMERA_BINDING) uniform CameraUniforms { CameraBlock camera; };
+layout(std430, binding = WK_COUNTERS_BINDING) buffer CounterBuffer { Counters counters; };
+layout(rgba16f, binding = 0) uniform writeonly image2D u_light;
+layout(rg32f, binding = 1) uniform writeonly image2D u_aux;
+#if PIXELS == PIXELS_LIST
+layout(std430, binding = WK_PIXELS_BINDING) readonly buffer PixelList { uint groups, one, one_, count, pixels[]; };
+#endif
+uniform ivec2 u_size;
+uniform ivec2 u_offset;   // which pixel of each 4 x 4
+uniform vec3 u_sunIrradiance;
+uniform float u_groundAlbedo;
+
+struct CloudColours { vec3 sun, sky, ground; };
+
+// Irradiances that light a cloud at this point: of the sun through the air, of sky and ground.
+CloudColours coloursAt(dvec3 position) {
+  float r = float(length(position));
+  float altitude = float(length(position) - double(tree.planetRadius_m));
+  float muSun = dot(vec3(position), tree.sunDir.xyz) / r;
+#if OPT_AIR
+  AirLight sky = airSkyIrradiance(u_skyIrradiance, air, max(altitude, 0.0), muSun);
+  return CloudColours(airSunTransmittance(u_skyTransmittance, air, max(altitude, 0.0), muSun) * u_sunIrradiance, sky.fromAbove, sky.fromBelow);
+#else
+  float dip = sqrt(max(altitude, 0.0) * (2.0 * tree.planetRadius_m + altitude)) / r;  // sine of the horizon's dip
+  float lit = muSun > -dip ? 1.0 : 0.0;
+  return CloudColours(lit * u_sunIrradiance, vec3(0.0), max(muSun, 0.0) * u_groundAlbedo * u_sunIrradiance);
+#endif
+}
+
+void main() {
+#if PIXELS == PIXELS_LIST
+  if (gl_GlobalInvocationID.x >= count) return;
+  uint packed = pixels[gl_GlobalInvocationID.x];
+  ivec2 pixel = ivec2(packed & 0xFFFFu, packed >> 16u);
+#elif PIXELS == PIXELS_SIXTEENTH
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * 4 + u_offset;
+#else
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+#endif
+  if (any(greaterThanEqual(pixel, u_size))) return;
+  vec2 ndc = vec2(2.0 * (float(pixel.x) + 0.5) / float(u_size.x) - 1.0, 1.0 - 2.0 * (float(pixel.y) + 0.5) / float(u_size.y));
+  Ray view = cameraRay(camera, ndc);
+  dvec3 position = xyz(camera.position);
+  CloudPhases phases = cloudPhases(dot(view.dir, tree.sunDir.xyz));
+  CloudRay cloud = marchClouds(position, camera.position.w, camera.up.w, camera.forward.w, view.dir, view.ground_m, phases);
+  vec3 light = vec3(0.0);
+  if (cloud.transmittance < 1.0) {
+    CloudColours colours = coloursAt(position + dvec3(view.dir) * double(cloud.distance_m));
+    light = cloud.sun * colours.sun + cloud.sky * colours.sky + cloud.ground * colours.ground;
+  }
+  float shadow = 1.0;
+  if (view.ground_m >= 0.0 && cloud.transmittance > 0.0 && tree.sunDir.w > 0.0)
+    shadow = cloudShadow(sunDepth(position + dvec3(view.dir) * double(view.ground_m)));
+  imageStore(u_light, pixel, vec4(light, cloud.transmittance));
+  imageStore(u_aux, pixel, vec4(cloud.distance_m, shadow, 0.0, 0.0));
+  atomicAdd(counters.marchedPixels, 1u);
+  atomicAdd(counters.cells, cloud.cells);
+  atomicAdd(counters.samples, cloud.samples);
+  if (cloud.hole) atomicAdd(counters.holes, 1u);
+}

@@ -1,0 +1,121 @@
+#include "render/march/cloud_passes.h"
+
+#include <cmath>
+
+namespace welkin {
+namespace {
+
+// Order in which the pixels of a 4 x 4 are marched: far neighbours first (a Bayer matrix read in order of its values).
+constexpr int kOrder[16][2] = {{0, 0}, {2, 2}, {2, 0}, {0, 2}, {1, 1}, {3, 3}, {3, 1}, {1, 3},
+                               {1, 0}, {3, 2}, {3, 0}, {1, 2}, {0, 1}, {2, 3}, {2, 1}, {0, 3}};
+
+shared::dvec4 pack(glm::dvec3 v, double w) { return {v.x, v.y, v.z, w}; }
+unsigned groups(int pixels, int size) { return static_cast<unsigned>((pixels + size - 1) / size); }
+
+}  // namespace
+
+ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, int width, int height) {
+  ViewFrame f;
+  f.position_m = view.position_m;
+  f.forward = view.orientation * glm::dvec3(0, 0, -1);
+  f.right = view.orientation * glm::dvec3(1, 0, 0);
+  f.up = view.orientation * glm::dvec3(0, 1, 0);
+  f.tanY = std::tan(view.fov_deg * (3.14159265358979323846 / 360));
+  f.tanX = f.tanY * width / height;
+  const double r = glm::length(view.position_m);
+  f.block.position = pack(f.position_m, r - planetRadius_m);
+  f.block.forward = pack(f.forward, planetRadius_m);
+  f.block.right = pack(f.right * f.tanX, shellTop_m);
+  f.block.up = pack(f.up * f.tanY, r);
+  return f;
+}
+
+Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, bool air) {
+  CloudPasses passes;
+  passes.width_ = width;
+  passes.height_ = height;
+  for (int i = 0; i < 2; ++i) {
+    auto light = gpu::Texture::create(account, "cloud history", {.format = GL_RGBA16F, .width = width, .height = height, .frameTarget = true});
+    if (!light) return light.error();
+    auto aux = gpu::Texture::create(account, "cloud history", {.format = GL_RG32F, .width = width, .height = height, .frameTarget = true});
+    if (!aux) return aux.error();
+    passes.light_[i] = std::move(*light);
+    passes.aux_[i] = std::move(*aux);
+  }
+  auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width) * std::size_t(height) * 4, GL_DYNAMIC_STORAGE_BIT, true);
+  if (!pixels) return pixels.error();
+  passes.pixels_ = std::move(*pixels);
+  gpu::Defines defines = tree.defines();
+  defines.emplace_back("OPT_AIR", air ? "1" : "0");
+  gpu::Program* programs[] = {&passes.marchAll_, &passes.marchSixteenth_, &passes.marchList_};
+  for (int i = 0; i < 3; ++i) {
+    gpu::Defines variant = defines;
+    variant.emplace_back("PIXELS", std::to_string(i));
+    auto program = gpu::Program::compute("pass/march/march.comp", variant);
+    if (!program) return program.error();
+    *programs[i] = std::move(*program);
+  }
+  auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
+  if (!reproject) return reproject.error();
+  passes.reproject_ = std::move(*reproject);
+  return passes;
+}
+
+void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset) const {
+  program.set("u_size", glm::ivec2(width_, height_));
+  program.set("u_offset", offset);
+  light_[current_].bindImage(0, GL_WRITE_ONLY);
+  aux_[current_].bindImage(1, GL_WRITE_ONLY);
+}
+
+void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
+  const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
+  const float albedo = float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3;
+  for (gpu::Program* p : {&marchAll_, &marchSixteenth_, &marchList_}) {
+    p->set("u_sunIrradiance", irradiance);
+    p->set("u_groundAlbedo", albedo);
+  }
+  const int old = current_;
+  current_ = 1 - current_;
+  if (mode == FrameMode::Full || !haveHistory_) {
+    timer.begin("march");
+    march(marchAll_, {0, 0});
+    marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
+    timer.end();
+  } else {
+    const glm::ivec2 offset{kOrder[phase_ % 16][0], kOrder[phase_ % 16][1]};
+    ++phase_;
+    timer.begin("reproject");
+    const std::uint32_t head[4] = {0, 1, 1, 0};
+    pixels_.upload(0, std::as_bytes(std::span(head)));
+    pixels_.bind(GL_SHADER_STORAGE_BUFFER, WK_PIXELS_BINDING);
+    light_[old].bind(WK_CLOUD_LIGHT_UNIT);
+    aux_[old].bind(WK_CLOUD_AUX_UNIT);
+    reproject_.set("u_size", glm::ivec2(width_, height_));
+    reproject_.set("u_offset", offset);
+    reproject_.set("u_move", glm::vec3(view.position_m - last_.position_m));
+    reproject_.set("u_oldForward", glm::vec3(last_.forward));
+    reproject_.set("u_oldRight", glm::vec3(last_.right / last_.tanX));
+    reproject_.set("u_oldUp", glm::vec3(last_.up / last_.tanY));
+    light_[current_].bindImage(0, GL_WRITE_ONLY);
+    aux_[current_].bindImage(1, GL_WRITE_ONLY);
+    reproject_.dispatch(groups(width_, 8), groups(height_, 8));
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    timer.end();
+    timer.begin("march");
+    march(marchSixteenth_, offset);
+    marchSixteenth_.dispatch(groups(width_, 32), groups(height_, 32));
+    march(marchList_, offset);
+    marchList_.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pixels_.id());
+    glDispatchComputeIndirect(0);
+    timer.end();
+  }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  light_[current_].bind(WK_CLOUD_LIGHT_UNIT);
+  aux_[current_].bind(WK_CLOUD_AUX_UNIT);
+  last_ = view;
+  haveHistory_ = true;
+}
+
+}  // namespace welkin

@@ -1,0 +1,36 @@
+#pragma once
+// The march and the reprojection: clouds of every pixel, of which one in 16 is marched a frame and the rest is moved from the last.
+#include "render/tree/resident_tree.h"
+#include "welkin/gpu/timer.h"
+#include "welkin/render/renderer.h"
+#include "welkin/shared/camera.glsl.h"
+
+namespace welkin {
+
+// How a view is seen by shaders, and what the next frame needs of it to reproject.
+struct ViewFrame {
+  shared::CameraBlock block;
+  glm::dvec3 position_m, forward, right, up;  // unit axes
+  double tanX, tanY;
+};
+ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, int width, int height);
+
+class CloudPasses {
+ public:
+  static Result<CloudPasses> create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, bool air);
+  // Expects tree, camera, counters and sky bound. Leaves the new clouds bound at WK_CLOUD_LIGHT_UNIT and WK_CLOUD_AUX_UNIT.
+  void run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer);
+  void forget() { haveHistory_ = false; }  // the next frame marches every pixel
+
+ private:
+  void march(const gpu::Program& program, glm::ivec2 offset) const;
+  int width_ = 0, height_ = 0, current_ = 0;
+  bool haveHistory_ = false;
+  std::uint32_t phase_ = 0;  // which of the 16 pixels is next
+  ViewFrame last_{};
+  gpu::Texture light_[2], aux_[2];
+  gpu::Buffer pixels_;
+  gpu::Program marchAll_, marchSixteenth_, marchList_, reproject_;
+};
+
+}  // namespace welkin

@@ -1,0 +1,199 @@
+#include "render/tree/resident_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace welkin {
+
+using shared::kMapEdge;
+
+namespace {
+constexpr std::uint64_t kLayerBytes = std::uint64_t{shared::kBricksPerLayer} * 512 * 4;  // RG16
+constexpr std::uint64_t kMapBytes = std::uint64_t{kMapEdge} * kMapEdge * kMapEdge * 8;    // RG32UI
+constexpr std::uint64_t kGroupBytes = 64;
+// Non-empty children of a split node are two to six of eight; three groups to four bricks leaves room for the sparse end.
+constexpr std::uint32_t kGroupsPerLayer = shared::kBricksPerLayer * 3 / 4;
+constexpr std::uint64_t kJobBytes = 16;
+
+std::uint32_t mapBaseOf(std::uint32_t depth) { return std::min(shared::kMapShift, depth); }
+std::uint64_t fixedBytes(std::uint32_t depth) {
+  const std::uint32_t levels = depth - mapBaseOf(depth) + 1;
+  return levels * (kMapBytes + 4096 * kJobBytes) + sizeof(shared::TreeBlock);
+}
+}  // namespace
+
+TreeLayout TreeLayout::fit(std::uint64_t bytes, std::uint32_t depth) {
+  TreeLayout layout;
+  layout.depth = depth;
+  layout.mapBase = mapBaseOf(depth);
+  const std::uint64_t fixed = fixedBytes(depth);
+  if (bytes < fixed) return layout;
+  const auto layers = static_cast<std::uint32_t>(std::min<std::uint64_t>((bytes - fixed) / (kLayerBytes + kGroupsPerLayer * kGroupBytes),
+                                                                         (shared::kBrickMask + 1) / shared::kBricksPerLayer));
+  if (layers == 0) return layout;
+  layout.textures = (layers + shared::kAtlasLayers - 1) / shared::kAtlasLayers;
+  layout.layersPerTexture = layers / layout.textures;
+  layout.bricks = layout.textures * layout.layersPerTexture * shared::kBricksPerLayer;
+  layout.groups = layout.textures * layout.layersPerTexture * kGroupsPerLayer;
+  return layout;
+}
+
+std::uint64_t TreeLayout::bytes() const {
+  return fixedBytes(depth) + std::uint64_t{textures} * layersPerTexture * kLayerBytes + groups * kGroupBytes;
+}
+
+std::uint64_t TreeLayout::leastBytes(std::uint32_t depth) { return fixedBytes(depth) + kLayerBytes + kGroupsPerLayer * kGroupBytes; }
+
+Result<ResidentTree> ResidentTree::create(gpu::MemoryAccount& account, const TreeLayout& layout, const RootFrame& root) {
+  ResidentTree tree;
+  tree.layout_ = layout;
+  tree.root_ = root;
+  const std::uint32_t levels = layout.depth - layout.mapBase + 1;
+  auto nodes = gpu::Buffer::create(account, "nodes", layout.groups * kGroupBytes);
+  if (!nodes) return nodes.error();
+  auto block = gpu::Buffer::create(account, "tree block", sizeof(shared::TreeBlock));
+  if (!block) return block.error();
+  auto jobs = gpu::Buffer::create(account, "map jobs", levels * 4096 * kJobBytes);
+  if (!jobs) return jobs.error();
+  auto maps = gpu::Texture::create(account, "octree maps", {.target = GL_TEXTURE_3D, .format = GL_RG32UI, .width = int(kMapEdge), .height = int(kMapEdge),
+                                                            .depth = int(kMapEdge * levels), .filter = GL_NEAREST});
+  if (!maps) return maps.error();
+  for (std::uint32_t i = 0; i < layout.textures; ++i) {
+    auto bricks = gpu::Texture::create(account, "bricks", {.target = GL_TEXTURE_3D, .format = GL_RG16, .width = int(shared::kAtlasX * 8),
+                                                           .height = int(shared::kAtlasY * 8), .depth = int(layout.layersPerTexture * 8)});
+    if (!bricks) return bricks.error();
+    tree.bricks_.push_back(std::move(*bricks));
+  }
+  auto build = gpu::Program::compute("pass/maps/build.comp");
+  if (!build) return build.error();
+  tree.nodes_ = std::move(*nodes);
+  tree.block_ = std::move(*block);
+  tree.mapJobs_ = std::move(*jobs);
+  tree.maps_ = std::move(*maps);
+  tree.build_ = std::move(*build);
+  const shared::NodeWords root0{shared::packWord(shared::kZeroBrick, 0, 0), shared::kNoGroup};
+  tree.nodes_.upload(0, std::as_bytes(std::span(&root0, 1)));
+  return tree;
+}
+
+void ResidentTree::store(const FrameEdits& edits) {
+  // Runs of neighbouring nodes go up in one call.
+  std::vector<shared::NodeWords> run;
+  for (std::size_t i = 0; i < edits.nodes.size();) {
+    std::size_t end = i;
+    run.clear();
+    do run.push_back(edits.nodes[end].words);
+    while (++end < edits.nodes.size() && edits.nodes[end].node == edits.nodes[end - 1].node + 1);
+    nodes_.upload(edits.nodes[i].node * sizeof(shared::NodeWords), run);
+    i = end;
+  }
+  for (const DirtyNode& node : edits.dirty) markStale(node);
+}
+
+void ResidentTree::markStale(const DirtyNode& node) {
+  for (std::uint32_t level = layout_.mapBase; level <= layout_.depth; ++level) {
+    Map& map = map_[level];
+    if (!map.placed) continue;
+    const std::uint32_t shift = 32 - level;
+    glm::ivec3 lo, hi;  // in blocks, clipped to the window
+    bool outside = false;
+    for (int a = 0; a < 3; ++a) {
+      const std::uint64_t first = node.corner[a] >> shift;
+      const std::uint64_t last = (std::uint64_t{node.corner[a]} + shared::levelMask(node.level)) >> shift;
+      const std::uint64_t from = std::max<std::uint64_t>(first, map.origin[a]), to = std::min<std::uint64_t>(last, map.origin[a] + kMapEdge - 1);
+      if (from > to) outside = true;
+      lo[a] = int(from >> 2);
+      hi[a] = int(to >> 2);
+    }
+    if (outside) continue;
+    for (int z = lo.z; z <= hi.z; ++z)
+      for (int y = lo.y; y <= hi.y; ++y)
+        for (int x = lo.x; x <= hi.x; ++x) map.stale.set(std::size_t((x & 15) + 16 * ((y & 15) + 16 * (z & 15))));
+  }
+}
+
+void ResidentTree::placeWindow(std::uint32_t level, glm::dvec3 camera_planet) {
+  Map& map = map_[level];
+  const double cell_m = root_.nodeSize_m(level);
+  const double cells = std::ldexp(1.0, int(level));
+  glm::uvec3 origin{0};
+  for (int a = 0; a < 3; ++a) {
+    // Rounded to blocks of four: the camera stays at least kMapReach cells from the window's faces.
+    const double centre = (camera_planet[a] + root_.half_m) / cell_m;
+    const double first = 4.0 * std::round((centre - kMapEdge / 2.0) / 4.0);
+    origin[a] = static_cast<std::uint32_t>(std::clamp(first, 0.0, std::max(cells - kMapEdge, 0.0)));
+  }
+  if (map.placed && origin == map.origin) return;
+  for (int z = 0; z < kBlocks; ++z)
+    for (int y = 0; y < kBlocks; ++y)
+      for (int x = 0; x < kBlocks; ++x) {
+        const glm::uvec3 cell = origin + glm::uvec3(x, y, z) * 4u;
+        bool old = map.placed;
+        for (int a = 0; a < 3; ++a) old = old && cell[a] >= map.origin[a] && cell[a] < map.origin[a] + kMapEdge;
+        const glm::uvec3 block = (cell >> 2u) & 15u;
+        if (!old) map.stale.set(block.x + 16 * (block.y + 16 * block.z));
+      }
+  map.origin = origin;
+  map.placed = true;
+}
+
+void ResidentTree::updateMaps(glm::dvec3 camera_planet, bool baseOnly) {
+  jobs_.clear();
+  for (std::uint32_t level = layout_.mapBase; level <= (baseOnly ? layout_.mapBase : layout_.depth); ++level) {
+    placeWindow(level, camera_planet);
+    Map& map = map_[level];
+    if (map.stale.none()) continue;
+    const std::uint32_t cells = level >= 32 ? 0xFFFFFFFFu : (1u << level);
+    const glm::uvec3 firstBlock = map.origin >> 2u;
+    for (std::uint32_t i = 0; i < map.stale.size(); ++i) {
+      if (!map.stale[i]) continue;
+      // the block of the window with these low bits
+      glm::uvec3 block{i & 15u, (i >> 4) & 15u, i >> 8};
+      block = firstBlock + ((block - firstBlock) & 15u);
+      const glm::uvec3 cell = block * 4u;
+      if (cell.x >= cells || cell.y >= cells || cell.z >= cells) continue;
+      jobs_.emplace_back(cell, level);
+    }
+    map.stale.reset();
+  }
+  mapCells_ = static_cast<std::uint32_t>(jobs_.size() * 64);
+  if (jobs_.empty()) return;
+  mapJobs_.upload(0, jobs_);
+  mapJobs_.bind(GL_SHADER_STORAGE_BUFFER, WK_MAP_JOBS_BINDING);
+  nodes_.bind(GL_SHADER_STORAGE_BUFFER, WK_NODES_BINDING);
+  block_.bind(GL_UNIFORM_BUFFER, WK_TREE_BINDING);
+  glBindImageTexture(0, maps_.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RG32UI);
+  constexpr std::size_t kMostGroups = 65535;
+  for (std::size_t first = 0; first < jobs_.size(); first += kMostGroups) {
+    build_.set("u_firstJob", static_cast<unsigned>(first));
+    build_.dispatch(static_cast<unsigned>(std::min(kMostGroups, jobs_.size() - first)));
+  }
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void ResidentTree::updateBlock(const shared::TreeBlock& values) {
+  shared::TreeBlock block = values;
+  block.half_m = root_.half_m;
+  block.stepsPerMetre = root_.stepsPerMetre();
+  block.stepLength_m = static_cast<float>(root_.step_m());
+  block.rootSize_m = static_cast<float>(2 * root_.half_m);
+  block.planetRadius_m = static_cast<float>(root_.planetRadius_m);
+  block.depth = layout_.depth;
+  block.mapBase = layout_.mapBase;
+  block.atlasDepthInverse = 1.0f / static_cast<float>(layout_.layersPerTexture * 8);
+  block.bricksPerTexture = layout_.layersPerTexture * shared::kBricksPerLayer;
+  block_.upload(0, std::as_bytes(std::span(&block, 1)));
+}
+
+void ResidentTree::bind() const {
+  nodes_.bind(GL_SHADER_STORAGE_BUFFER, WK_NODES_BINDING);
+  block_.bind(GL_UNIFORM_BUFFER, WK_TREE_BINDING);
+  maps_.bind(WK_MAP_UNIT);
+  for (std::size_t i = 0; i < bricks_.size(); ++i) bricks_[i].bind(static_cast<GLuint>(WK_BRICK_UNIT + i));
+}
+
+void ResidentTree::bindBrickImages(GLenum access) const {
+  for (std::size_t i = 0; i < bricks_.size(); ++i) bricks_[i].bindImage(static_cast<GLuint>(i), access);
+}
+
+}  // namespace welkin

@@ -1,0 +1,62 @@
+#pragma once
+// The octree as the GPU stores it: node buffer, brick textures, octree maps, and what all passes know of it. It obeys the
+// streamer's edits.
+#include <array>
+#include <bitset>
+#include <vector>
+
+#include "welkin/gpu/program.h"
+#include "welkin/gpu/resources.h"
+#include "welkin/physics/root_frame.h"
+#include "welkin/shared/tree_block.glsl.h"
+#include "welkin/stream/streamer.h"
+
+namespace welkin {
+
+// How a byte budget is divided among the tree's parts.
+struct TreeLayout {
+  std::uint32_t depth = 16, mapBase = 6;
+  std::uint32_t textures = 1, layersPerTexture = 1;  // of 2048 bricks, 4 MiB
+  std::uint32_t bricks = 0, groups = 0;
+  // What is left after `bytes`-sized other things; bricks == 0: not enough for a single layer.
+  static TreeLayout fit(std::uint64_t bytes, std::uint32_t depth);
+  std::uint64_t bytes() const;
+  static std::uint64_t leastBytes(std::uint32_t depth);
+};
+
+class ResidentTree {
+ public:
+  static Result<ResidentTree> create(gpu::MemoryAccount& account, const TreeLayout& layout, const RootFrame& root);
+
+  void store(const FrameEdits& edits);                       // node words and marks maps stale
+  // Rebuilds stale map cells around the camera; `baseOnly`: just the map of the whole root (enough for shadow rays).
+  void updateMaps(glm::dvec3 camera_planet, bool baseOnly);
+  void updateBlock(const shared::TreeBlock& block);          // detail, band, sun … ; the layout's fields are filled in here
+  void bind() const;                                         // nodes, maps, bricks, block
+  void bindBrickImages(GLenum access) const;
+  const TreeLayout& layout() const { return layout_; }
+  gpu::Defines defines() const { return {{"BRICK_TEXTURES", std::to_string(layout_.textures)}}; }
+  std::uint32_t mapCellsUpdated() const { return mapCells_; }  // by the last updateMaps
+
+ private:
+  static constexpr int kBlocks = 16;  // blocks of 4^3 cells an axis in a map
+  struct Map {
+    glm::uvec3 origin{0};             // first cell of the window, a multiple of 4
+    bool placed = false;
+    std::bitset<kBlocks * kBlocks * kBlocks> stale;
+  };
+  void markStale(const DirtyNode& node);
+  void placeWindow(std::uint32_t level, glm::dvec3 camera_planet);
+
+  TreeLayout layout_;
+  RootFrame root_;
+  gpu::Buffer nodes_, block_, mapJobs_;
+  gpu::Texture maps_;
+  std::vector<gpu::Texture> bricks_;
+  gpu::Program build_;
+  std::array<Map, shared::kMaxDepth + 1> map_;
+  std::uint32_t mapCells_ = 0;
+  std::vector<glm::uvec4> jobs_;
+};
+
+}  // namespace welkin

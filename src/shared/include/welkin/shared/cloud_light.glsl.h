@@ -1,0 +1,58 @@
+#pragma once
+// How sun and sky light a point inside a cloud, from the sun's optical depth alone. Named, so that a path tracer can be held
+// against each. All are per unit of sun irradiance or of sky irradiance, in 1/sr: multiplied by extinction and path length they give
+// radiance (droplets do not absorb visible light: albedo 1).
+#include "welkin/shared/prelude.glsl.h"
+WK_BEGIN
+
+WK_CONST float kPi = F(3.14159265358979);
+
+// Henyey & Greenstein 1941; integrates to 1 over the sphere.
+WK_FN float henyeyGreenstein(float cosTheta, float g) {
+  float d = F(1.0) + g * g - F(2.0) * g * cosTheta;
+  return (F(1.0) - g * g) / (F(4.0) * kPi * d * sqrt(d));
+}
+
+// Droplets: a strong forward lobe (silver lining) and a weak backward one. Asymmetry 0.87 * 0.85 - 0.13 * 0.3 = 0.70 after the
+// forward peak within a few degrees is counted as not scattered.
+WK_CONST float kForwardG = F(0.85);
+WK_CONST float kBackwardG = F(-0.3);
+WK_CONST float kForwardShare = F(0.87);
+WK_FN float cloudPhase(float cosTheta, float sharpness) {
+  return mix(henyeyGreenstein(cosTheta, kBackwardG * sharpness), henyeyGreenstein(cosTheta, kForwardG * sharpness), kForwardShare);
+}
+
+// Phase values of three scattering octaves (Wrenninge et al. 2013, "Oz: the great and volumetric"): each is dimmer, broader and
+// reaches deeper than the one before. Constant along a ray.
+struct CloudPhases {
+  float single;
+  float second;
+  float third;
+};
+WK_FN CloudPhases cloudPhases(float cosTheta) {
+  return WK_NEW(CloudPhases, cloudPhase(cosTheta, F(1.0)), F(0.5) * cloudPhase(cosTheta, F(0.6)), F(0.25) * cloudPhase(cosTheta, F(0.35)));
+}
+
+// Light that has forgotten where it came from: diffusion decays as 1 / (1 + k tau), not exponentially, so a thick cloud is grey
+// underneath, not black; at the lit face it builds up over the first optical depths.
+WK_CONST float kDiffuseGain = F(3.4);
+WK_CONST float kDiffuseDecay = F(0.09);
+WK_FN float sunSource(CloudPhases phases, float tau) {
+  float quarter = exp2(tau * F(-0.36067376));  // exp(-tau / 4)
+  float half_ = quarter * quarter;
+  float diffuse = kDiffuseGain / (F(4.0) * kPi) * (F(1.0) - F(0.8) * half_) / (F(1.0) + kDiffuseDecay * tau);
+  return phases.single * half_ * half_ + phases.second * half_ + phases.third * quarter + diffuse;
+}
+
+// Sky light from above fades with depth (isotropic, diffusing); light from the ground reaches what the sun does not.
+WK_FN float skySource(float tau) { return F(1.0) / (F(2.0) * kPi) / (F(1.0) + F(0.25) * tau); }
+WK_FN float groundSource(float tau) { return F(1.0) / (F(2.0) * kPi) * (F(0.25) + F(0.75) * tau / (tau + F(6.0))); }
+
+// Share of the sun's irradiance that reaches the ground through cloud of this optical depth: the direct beam, and half of what a
+// conservative two-stream cloud lets through (1 / (1 + 0.1 tau)); the other half falls outside the shadow.
+WK_FN float cloudShadow(float tau) {
+  float direct = exp2(tau * F(-1.44269504));
+  return direct + (F(1.0) - direct) * F(0.5) / (F(1.0) + F(0.1) * tau);
+}
+
+WK_END
