@@ -30,7 +30,7 @@ def load(path):
     if not isinstance(rows, list) or not rows:
         fail(path, "/frames: expected a list of at least one row")
     for i, row in enumerate(rows):
-        if not isinstance(row, dict) or not isinstance(row.get("passes"), dict) or "altitude_m" not in row:
+        if not isinstance(row, dict) or not isinstance(row.setdefault("passes", {}), dict) or "altitude_m" not in row:
             fail(path, f"/frames/{i}: expected frame, altitude_m and passes")
     return data, rows
 
@@ -80,13 +80,14 @@ def plot(data, rows, output):
     upper.set_ylim(0, (top or 1.0) * 1.08)
     upper.set_ylabel("time of a pass, ms")
     upper.grid(axis="y", color="#dddddd", linewidth=0.6)
-    upper.legend(title="pass, median", loc="upper left", bbox_to_anchor=(1.09, 1.0), frameon=False)
+    upper.legend(title="pass, median", loc="upper left", bbox_to_anchor=(1.13, 1.0), frameon=False)
 
     lower.stackplot(frames, *smooth.values(), colors=COLOURS, linewidth=0)
     lower.set_ylim(0, None)
     lower.set_xlim(frames[0], frames[-1] if len(frames) > 1 else frames[0] + 1)
     lower.set_ylabel("all passes, ms")
     lower.set_xlabel("frame")
+    lower.set_axisbelow(True)
     lower.grid(axis="y", color="#dddddd", linewidth=0.6)
 
     altitudes = [max(float(row["altitude_m"]), 0.1) for row in rows]
@@ -103,8 +104,9 @@ def plot(data, rows, output):
             middle = math.sqrt(max(altitudes) * min(altitudes))
             second.set_ylim(middle / 2, middle * 2)
 
-    size = context.get("size")
-    what = [str(context.get("renderer", "")), f"{size[0]}×{size[1]}" if isinstance(size, list) and len(size) == 2 else "",
+    settings = context.get("settings", {})
+    size = f"{settings['width']}×{settings['height']}" if "width" in settings and "height" in settings else ""
+    what = [str(context.get("gl_renderer", "")), size,
             "CPU time, all cores added" if clock == "cpu_ms" else "wall time", f"running median of {WINDOW} frames"]
     figure.suptitle("Pass times along the flight", x=0.01, ha="left", fontweight="bold")
     upper.set_title(" · ".join(w for w in what if w), loc="left", fontsize=8.5, color="#555555")

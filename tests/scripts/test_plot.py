@@ -26,13 +26,13 @@ class Plot(unittest.TestCase):
 
     def test_picture(self):
         for n in [1, 2, 300]:
-            done, size = self.run_on(json.dumps({"context": {"software": True, "renderer": "r", "size": [320, 180]}, "frames": rows(n)}))
+            done, size = self.run_on(json.dumps({"context": {"software": True, "gl_renderer": "r", "settings": {"width": 320, "height": 180}}, "frames": rows(n)}))
             self.assertEqual(done.returncode, 0, done.stderr)
             if "matplotlib is not installed" not in done.stderr:
                 self.assertGreater(size, 10_000)  # an empty figure of this size is 8 kB
 
     def test_bad_input_is_one_line(self):
-        for text in ["", "{", "[]", "{}", '{"frames": []}', '{"frames": [1]}', '{"frames": [{"passes": {}}]}']:
+        for text in ["", "{", "[]", "{}", '{"frames": []}', '{"frames": [1]}', '{"frames": [{"passes": {}}]}', '{"frames": [{"altitude_m": 1, "passes": 2}]}']:
             done, size = self.run_on(text)
             self.assertEqual((done.returncode, size), (1, 0), text)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
