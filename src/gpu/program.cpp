@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -52,7 +53,8 @@ struct Loader {
       } else if (first != std::string::npos && line.compare(first, 12, "#pragma once") == 0) {
         out += "\n";
       } else {
-        out += line + "\n";
+        static const std::regex construct("WK_NEW\\((\\w+), *");  // prelude.glsl.h
+        out += std::regex_replace(line, construct, "$1(") + "\n";
       }
     }
     open.pop_back();

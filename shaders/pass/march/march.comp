@@ -49,8 +49,8 @@ CloudColours coloursAt(dvec3 position) {
 void main() {
 #if PIXELS == PIXELS_LIST
   if (gl_GlobalInvocationID.x >= count) return;
-  uint packed = pixels[gl_GlobalInvocationID.x];
-  ivec2 pixel = ivec2(packed & 0xFFFFu, packed >> 16u);
+  uint entry = pixels[gl_GlobalInvocationID.x];
+  ivec2 pixel = ivec2(entry & 0xFFFFu, entry >> 16u);
 #elif PIXELS == PIXELS_SIXTEENTH
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * 4 + u_offset;
 #else

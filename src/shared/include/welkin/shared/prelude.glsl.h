@@ -19,12 +19,11 @@ inline float uintBitsToFloat(std::uint32_t u) { float x; __builtin_memcpy(&x, &u
 #define WK_FN inline
 #define WK_CONST inline constexpr
 #define F(x) (x##f)
-#define WK_NEW(type, ...) type{__VA_ARGS__}  // construct a struct
+#define WK_NEW(type, ...) type{__VA_ARGS__}  // construct a struct; GLSL has no variadic macros: its loader writes type(...)
 #else
 #define WK_BEGIN
 #define WK_END
 #define WK_FN
 #define WK_CONST const
 #define F(x) (x)
-#define WK_NEW(type, ...) type(__VA_ARGS__)
 #endif

@@ -1,0 +1,29 @@
+#include "welkin/render/frame_plan.h"
+
+namespace welkin {
+
+FramePlan planFrame(const Scene& scene) {
+  FramePlan plan;
+  plan.air = scene.atmosphere && !scene.atmosphere->layers.empty();
+  plan.sun = scene.sun && (scene.sun->irradiance[0] > 0 || scene.sun->irradiance[1] > 0 || scene.sun->irradiance[2] > 0);
+  plan.clouds = scene.clouds && !scene.clouds->sources.empty();
+  if (plan.air && !plan.sun) {
+    plan.air = false;
+    plan.leftOut.push_back({"sky tables, aerial perspective", "no sun: the air has no light to scatter"});
+  } else if (!plan.air) {
+    plan.leftOut.push_back({"sky tables, aerial perspective", "no atmosphere in the scene"});
+  }
+  if (!plan.sun) plan.leftOut.push_back({"sun disc, shadow rays", "no sun in the scene"});
+  if (!plan.clouds) plan.leftOut.push_back({"octree, worker, brick pool, bricks, light, octree maps, march, reprojection", "no clouds in the scene"});
+  if (plan.air) plan.passes.emplace_back("sky");
+  if (plan.clouds) {
+    plan.passes.emplace_back("maps");
+    if (plan.sun) plan.passes.emplace_back("light");
+    plan.passes.insert(plan.passes.end(), {"reproject", "march"});
+  }
+  plan.passes.emplace_back("composite");
+  if (plan.clouds) plan.passes.emplace_back("bricks");
+  return plan;
+}
+
+}  // namespace welkin

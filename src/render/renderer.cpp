@@ -1,0 +1,306 @@
+#include "welkin/render/renderer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <deque>
+
+#include "render/bricks/brick_passes.h"
+#include "render/composite/composite_pass.h"
+#include "render/march/cloud_passes.h"
+#include "render/sky/sky_tables.h"
+#include "render/tree/resident_tree.h"
+#include "welkin/shared/counters.glsl.h"
+
+namespace welkin {
+namespace {
+
+constexpr std::uint64_t kLatency = 2;            // edits computed from frame k are applied at frame k + 2
+constexpr std::uint32_t kSettleBricks = 8192;    // bricks of one step while settling: nothing is drawn in between
+constexpr int kMostSettleSteps = 4000;           // far over the count a tree of the largest budget needs
+constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and their alignment
+
+SelectionCamera selectionCamera(const ViewFrame& view) {
+  return {view.position_m, view.forward, view.right, view.up, view.tanY, view.tanX};
+}
+
+std::uint64_t treeBudget(const Scene& scene, const gpu::MemoryAccount& account, std::uint64_t brickPassBytes) {
+  const std::uint64_t taken = account.used() + brickPassBytes + kSmallBuffers;
+  return scene.quality.budget_bytes > taken ? scene.quality.budget_bytes - taken : 0;
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  Impl(gpu::Context& c, const Scene& s, const RenderSettings& r)
+      : context(c), scene(s), settings(r), plan(planFrame(s)), account(s.quality.budget_bytes), timer(c.device().software) {
+    timer.enabled = r.timing;
+  }
+
+  gpu::Context& context;
+  Scene scene;
+  RenderSettings settings;
+  FramePlan plan;
+  gpu::MemoryAccount account;   // outlives everything charged to it
+  gpu::PassTimer timer;
+  gpu::Buffer camera, counters;
+  std::optional<SkyTables> sky;
+  std::optional<CompositePass> composite;
+  std::unique_ptr<DensitySource> source;
+  RootFrame root;
+  std::optional<ResidentTree> tree;
+  std::optional<BrickPasses> bricks;
+  std::optional<CloudPasses> clouds;
+  std::unique_ptr<Streamer> streamer;
+  std::deque<std::uint64_t> asked;   // frames whose edits are not taken yet
+  FrameEdits last;                   // the newest applied edits, without their lists
+  std::uint64_t frameNumber = 0;
+  std::uint64_t step = 0;            // number of the next input to the worker
+
+  Result<void> create();
+  double shellTop_m() const { return plan.air ? scene.atmosphere->top_m : source ? std::max(source->top_m(), 1.0) : 1.0; }
+  void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
+  void apply(FrameEdits&& edits, glm::dvec3 camera_planet, bool draw, FrameStats& stats);
+  void updateTreeBlock();
+  FrameStats report(FrameStats stats) const;
+};
+
+Result<void> Renderer::Impl::create() {
+  auto cameraBuffer = gpu::Buffer::create(account, "camera block", sizeof(shared::CameraBlock));
+  if (!cameraBuffer) return cameraBuffer.error();
+  camera = std::move(*cameraBuffer);
+  auto counterBuffer = gpu::Buffer::create(account, "counters", sizeof(shared::Counters));
+  if (!counterBuffer) return counterBuffer.error();
+  counters = std::move(*counterBuffer);
+  if (plan.air) {
+    auto tables = SkyTables::create(account, scene);
+    if (!tables) return tables.error();
+    sky.emplace(std::move(*tables));
+  }
+  auto compositePass = CompositePass::create(account, scene, settings.width, settings.height);
+  if (!compositePass) return compositePass.error();
+  composite.emplace(std::move(*compositePass));
+  if (!plan.clouds) return {};
+
+  root = RootFrame::enclosing(scene.planet.radius_m, 20'000);
+  auto made = makeDensitySource(scene, root);
+  if (!made) return made.error();
+  source = std::move(*made);
+  const TreeLayout layout = TreeLayout::fit(treeBudget(scene, account, BrickPasses::bytes(*source)), std::uint32_t(scene.quality.depth));
+  if (layout.bricks == 0) {
+    const std::uint64_t least = account.used() + BrickPasses::bytes(*source) + kSmallBuffers + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
+    return Error{fmt::format("budget: {} MiB is too little for this scene at depth {}: the least that works is {} MiB",
+                             scene.quality.budget_bytes >> 20, scene.quality.depth, (least + (1 << 20) - 1) >> 20)};
+  }
+  auto residentTree = ResidentTree::create(account, layout, root);
+  if (!residentTree) return residentTree.error();
+  tree.emplace(std::move(*residentTree));
+  auto brickPasses = BrickPasses::create(account, *source, *tree);
+  if (!brickPasses) return brickPasses.error();
+  bricks.emplace(std::move(*brickPasses));
+  auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan.air);
+  if (!cloudPasses) return cloudPasses.error();
+  clouds.emplace(std::move(*cloudPasses));
+  StreamSettings stream;
+  stream.depth = layout.depth;
+  stream.brickCapacity = layout.bricks;
+  stream.groupCapacity = layout.groups;
+  stream.detailLimit = scene.quality.detail;
+  streamer = std::make_unique<Streamer>(*source, root, stream, settings.workerJitterSeed);
+  updateTreeBlock();
+  return {};
+}
+
+void Renderer::Impl::updateTreeBlock() {
+  shared::TreeBlock block{};
+  const glm::dvec3 sun = scene.sun ? scene.sun->direction_planet : glm::dvec3(0, 0, 1);
+  block.sunDir = glm::vec4(glm::vec3(sun), plan.sun ? 1.0f : 0.0f);
+  block.detail = last.sampleDetail;
+  block.maxExtinction_per_m = source->maxExtinction();
+  block.bandBase_m = last.bandBase_m;
+  block.bandTop_m = last.bandTop_m;
+  block.segmentDepth = static_cast<float>(scene.quality.step);
+  block.voxelSegments = 1;
+  tree->updateBlock(block);
+}
+
+void Renderer::Impl::ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap) {
+  FrameInput input;
+  input.frame = step;
+  input.camera = selectionCamera(view);
+  input.maxBricks = maxBricks;
+  input.snap = snap;
+  input.results = bricks->results(step >= kLatency && !snap ? step - kLatency : step);
+  asked.push_back(step++);
+  streamer->post(std::move(input));
+}
+
+void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, bool draw, FrameStats& stats) {
+  timer.begin("maps");
+  tree->store(edits);
+  last = std::move(edits);
+  updateTreeBlock();
+  tree->updateMaps(camera_planet, !draw);
+  timer.end();
+  stats.bricksLit += static_cast<std::uint32_t>(last.light.size());
+  if (plan.sun && !last.light.empty()) {
+    timer.begin("light");
+    bricks->light(*tree, last.light);
+    timer.end();
+  }
+}
+
+FrameStats Renderer::Impl::report(FrameStats stats) const {
+  stats.residency = last.stats;
+  stats.sampleDetail = last.sampleDetail;
+  stats.bytesUsed = account.used();
+  stats.bytesBudget = account.budget();
+  stats.frameTargetBytes = account.frameTargets();
+  return stats;
+}
+
+Renderer::Renderer() = default;
+Renderer::~Renderer() = default;
+
+Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
+  auto renderer = std::unique_ptr<Renderer>(new Renderer);
+  renderer->impl_ = std::make_unique<Impl>(context, scene, settings);
+  if (auto made = renderer->impl_->create(); !made) return made.error();
+  return renderer;
+}
+
+FrameStats Renderer::frame(const View& view, FrameMode mode) {
+  Impl& r = *impl_;
+  FrameStats stats;
+  stats.frame = r.frameNumber++;
+  const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
+  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
+  if (!r.settings.reprojection) mode = FrameMode::Full;
+
+  FrameEdits edits;
+  bool haveEdits = false;
+  if (r.plan.clouds) {
+    const bool due = r.asked.size() >= kLatency;
+    if (due && (r.settings.waitForEdits || r.streamer->ready(r.asked.front()))) {
+      const double waitFrom = gpu::wall_ms();
+      edits = r.streamer->take(r.asked.front());
+      stats.wait_ms = gpu::wall_ms() - waitFrom;
+      r.asked.pop_front();
+      haveEdits = true;
+    }
+  }
+  r.camera.upload(0, std::as_bytes(std::span(&frame.block, 1)));
+  r.camera.bind(GL_UNIFORM_BUFFER, WK_CAMERA_BINDING);
+  r.counters.clear();
+  r.counters.bind(GL_SHADER_STORAGE_BUFFER, WK_COUNTERS_BINDING);
+  const glm::dvec3 sun = r.scene.sun ? r.scene.sun->direction_planet : glm::dvec3(0, 0, 1);
+  if (r.sky) {
+    r.timer.begin("sky");
+    r.sky->updateView(frame.block, sun);
+    r.sky->bind();
+    r.timer.end();
+  }
+  if (r.plan.clouds) {
+    std::vector<BrickJob> generate;
+    if (haveEdits) {
+      generate = std::move(edits.generate);
+      r.apply(std::move(edits), view.position_m, true, stats);
+    } else {
+      FrameEdits nothing = r.last;   // the camera moved: the maps follow
+      nothing.nodes.clear();
+      nothing.dirty.clear();
+      nothing.light.clear();
+      nothing.generate.clear();
+      r.apply(std::move(nothing), view.position_m, true, stats);
+    }
+    r.tree->bind();
+    r.clouds->run(frame, mode, r.scene, r.timer);
+    stats.bricksGenerated = static_cast<std::uint32_t>(generate.size());
+    r.timer.begin("composite");
+    r.composite->run(r.scene, frame.block, view.exposure_ev.value_or(r.scene.exposure_ev));
+    r.timer.end();
+    r.timer.begin("bricks");
+    r.bricks->generate(*r.tree, generate, r.step);
+    r.timer.end();
+    if (!r.asked.empty() || haveEdits || r.step == 0 || r.settings.waitForEdits) r.ask(frame, r.settings.bricksPerFrame, false);
+  } else {
+    r.timer.begin("composite");
+    r.composite->run(r.scene, frame.block, view.exposure_ev.value_or(r.scene.exposure_ev));
+    r.timer.end();
+  }
+  shared::Counters counted{};
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  r.counters.download(0, std::as_writable_bytes(std::span(&counted, 1)));
+  stats.counters = {counted.nanPixels, counted.holes, counted.marchedPixels, counted.rejectedPixels, counted.cells, counted.samples};
+  stats.passes = r.timer.collect();
+  stats.wall_ms = gpu::wall_ms() - wall0;
+  stats.cpu_ms = gpu::processCpu_ms() - cpu0;
+  return r.report(stats);
+}
+
+FrameStats Renderer::settle(const View& view, const std::function<bool(double)>& progress) {
+  Impl& r = *impl_;
+  FrameStats stats;
+  if (!r.plan.clouds) return r.report(stats);
+  const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
+  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
+  std::uint64_t made = 0;
+  for (int i = 0; i < kMostSettleSteps; ++i) {
+    if (r.asked.empty()) r.ask(frame, kSettleBricks, true);
+    FrameEdits edits = r.streamer->take(r.asked.front());
+    r.asked.pop_front();
+    const std::vector<BrickJob> generate = std::move(edits.generate);
+    r.apply(std::move(edits), view.position_m, false, stats);
+    r.timer.begin("bricks");
+    r.bricks->generate(*r.tree, generate, r.step);
+    r.timer.end();
+    made += generate.size();
+    stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
+    const double left = r.last.stats.pendingBricks;
+    if (progress && !progress(double(made) / std::max(1.0, double(made) + left))) break;
+    if (r.last.stats.settled && generate.empty() && r.asked.empty()) break;
+  }
+  r.clouds->forget();
+  stats.passes = r.timer.collect();
+  stats.wall_ms = gpu::wall_ms() - wall0;
+  stats.cpu_ms = gpu::processCpu_ms() - cpu0;
+  return r.report(stats);
+}
+
+Image8 Renderer::image() const {
+  Image8 image{impl_->settings.width, impl_->settings.height, {}};
+  image.rgba.resize(std::size_t(image.width) * std::size_t(image.height) * 4);
+  glGetTextureImage(impl_->composite->display().id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(image.rgba.size()), image.rgba.data());
+  return image;
+}
+
+ImageF Renderer::radiance() const {
+  ImageF image{impl_->settings.width, impl_->settings.height, {}};
+  image.rgba.resize(std::size_t(image.width) * std::size_t(image.height) * 4);
+  glGetTextureImage(impl_->composite->radiance().id(), 0, GL_RGBA, GL_FLOAT, GLsizei(image.rgba.size() * sizeof(float)), image.rgba.data());
+  return image;
+}
+
+const FramePlan& Renderer::plan() const { return impl_->plan; }
+const Scene& Renderer::scene() const { return impl_->scene; }
+const gpu::MemoryAccount& Renderer::memory() const { return impl_->account; }
+
+std::vector<std::string> Renderer::notes() const {
+  std::vector<std::string> notes;
+  if (impl_->source && !impl_->source->note().empty()) notes.push_back(impl_->source->note());
+  return notes;
+}
+
+std::uint64_t leastBudget(const Scene& scene) {
+  // Cover map (6 faces of at most 1026^2 R16), sky tables and job buffers, as their owners size them; rounded up to a MiB.
+  const FramePlan plan = planFrame(scene);
+  std::uint64_t bytes = kSmallBuffers + (plan.air ? SkyTables::bytes(scene) : 0);
+  if (plan.clouds) {
+    const RootFrame root = RootFrame::enclosing(scene.planet.radius_m, 20'000);
+    const auto source = makeDensitySource(scene, root);
+    if (source) bytes += BrickPasses::bytes(**source) + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
+  }
+  return ((bytes + (1 << 20) - 1) >> 20) << 20;
+}
+
+}  // namespace welkin
