@@ -1,0 +1,48 @@
+#pragma once
+// How a camera sees a node: how far, outside the picture, hidden behind the planet. Double precision, planet frame, metres.
+#include <glm/glm.hpp>
+
+#include "welkin/octree/tree.h"
+#include "welkin/physics/root_frame.h"
+
+namespace welkin {
+
+// A camera for selection. It may move until what is decided now is on the screen: it is then within slack_m of position_m.
+struct SelectionView {
+  glm::dvec3 position_m{};
+  double slack_m = 0;
+  double near_m = 0;  // nothing is refined further than this distance asks for (rays sample as if they were at least this far)
+  glm::dvec3 forward{0, 0, -1}, right{1, 0, 0}, up{0, 1, 0};  // unit
+  double tanHalfFovX = 0.5, tanHalfFovY = 0.5;
+  double cloudBase_m = 0, cloudTop_m = 0;  // altitudes between which cloud can be
+};
+
+class NodeView {
+ public:
+  struct Seen {
+    double distance_m = 0;  // at most that to any cloud in the node, and at least near_m
+    bool outside = false;   // of the picture, enlarged a little
+    bool hidden = false;    // behind the planet's horizon
+    bool visible() const { return !outside && !hidden; }
+  };
+
+  NodeView(const RootFrame& root, const SelectionView& view);
+  // `above`: what is known of the parent. Outside and hidden hold for all of a node's children.
+  Seen look(const NodeAddress& node, const Seen& above) const;
+  // Greatest distance to a point of the node.
+  double farDistance_m(const NodeAddress& node) const;
+
+ private:
+  bool outsidePicture(glm::dvec3 centre_view, double radius_m) const;
+  bool behindHorizon(glm::dvec3 centre_planet, double radius_m, double size_m) const;
+
+  RootFrame root_;
+  SelectionView view_;
+  double cameraRadius_m_;
+  glm::dvec3 zenith_;
+  double horizonAngle_rad_, cosHorizon_;
+  double slackAngle_rad_;
+  glm::dvec3 planeX_, planeY_;  // (distance along forward, along right or up, 0) weights of the picture's side planes
+};
+
+}  // namespace welkin

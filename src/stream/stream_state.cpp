@@ -1,0 +1,234 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "job_queue.h"
+#include "motion.h"
+#include "welkin/octree/selection.h"
+#include "welkin/octree/validator.h"
+#include "welkin/stream/streamer.h"
+
+namespace welkin {
+namespace {
+
+constexpr double kLeastDetail = 1.0 / 64;  // keeps the logarithm of K finite while there is only the root
+constexpr double kGlideUp = 1.02, kGlideDown = 0.95;
+// A level is sampled from 3/8 of its range on: its child's range is half of it, and the last quarter of that blends with this level.
+constexpr double kSampledFrom = 0.375;
+constexpr std::uint32_t kMaxNewGroups = 1024;  // a step: bounds of their children cost most of it
+
+}  // namespace
+
+struct StreamState::Impl {
+  Impl(const DensitySource& densitySource, const RootFrame& rootFrame, const StreamSettings& streamSettings)
+      : source(densitySource),
+        root(rootFrame),
+        settings(streamSettings),
+        tree(streamSettings.groupCapacity, streamSettings.brickCapacity),
+        jobs(tree) {
+    if (settings.depth < 1 || settings.depth > shared::kMaxDepth) throw std::invalid_argument("octree: the depth must be 1 to 24");
+    selectionSettings = {settings.depth, settings.brickCapacity, settings.groupCapacity, settings.detailLimit, kMaxNewGroups};
+    bounds = [this](glm::uvec3 corner, std::uint32_t level) {
+      const Bounds b = source.bounds(corner, level);
+      return SourceBounds{b.lo, b.hi};
+    };
+  }
+
+  FrameEdits step(const FrameInput& input);
+  void plant(FrameEdits& edits);
+  void receive(const std::vector<BrickResult>& results);
+  void publishIfComplete(GroupIndex group);
+  bool reselect();
+  void followDetail(bool snap);
+  void findBand(NodeIndex node, const NodeView& view, const NodeView::Seen& above);
+  void writeOut(FrameEdits& edits);
+  ResidencyStats stats(bool settled) const;
+
+  const DensitySource& source;
+  const RootFrame root;
+  const StreamSettings settings;
+  SelectionSettings selectionSettings;
+  BoundsFunction bounds;
+  Tree tree;
+  JobQueue jobs;
+  TreeChanges changes;
+  Selection selection;
+  Motion motion;
+  bool planted = false, selectionStale = true, following = true;
+  double detail = 0;        // K that is sampled
+  double targetDetail = 0;  // where it glides to
+  float bandBase_m = 0, bandTop_m = 0;
+};
+
+// The root and its seven unused siblings: the GPU's buffer starts as anything.
+void StreamState::Impl::plant(FrameEdits& edits) {
+  planted = true;
+  tree.plantRoot(bounds(glm::uvec3(0), 0));
+  for (std::uint32_t node = 0; node < 8; ++node)
+    edits.nodes.push_back({node, {shared::packWord(shared::kZeroBrick, 0, 0), shared::kNoGroup}});
+  jobs.add(kRootGroup);
+  publishIfComplete(kRootGroup);
+}
+
+void StreamState::Impl::publishIfComplete(GroupIndex group) {
+  const Group& g = tree.group(group);
+  if (g.pending == 0 && !g.published) tree.publish(group, changes);
+}
+
+void StreamState::Impl::receive(const std::vector<BrickResult>& results) {
+  for (const BrickResult& result : results) {
+    const auto node = jobs.match(result.brick);
+    if (!node) continue;
+    tree.setGenerated(*node, {result.min, result.max, result.minAltitude_m, result.maxAltitude_m});
+    publishIfComplete(groupOf(*node));
+  }
+}
+
+// Brings the tree to what selection wants. True if it was so already.
+bool StreamState::Impl::reselect() {
+  SelectionView view = motion.view();
+  view.cloudBase_m = source.base_m();
+  view.cloudTop_m = source.top_m();
+  select(tree, root, view, selectionSettings, bounds, selection);
+  bool same = selection.complete && selection.added.empty();
+  // Merges first: their places are taken again. Of nested ones only the topmost is told.
+  for (std::uint32_t g = 1; g < selection.keep.size(); ++g) {
+    if (!tree.isLive({g})) continue;
+    if (selection.keep[g]) {
+      tree.group(GroupIndex{g}).key = selection.key[g];
+      continue;
+    }
+    GroupIndex top{g};
+    for (GroupIndex above = groupOf(tree.group(top).parent); !selection.keep[above.value]; above = groupOf(tree.group(top).parent))
+      top = above;
+    tree.merge(tree.group(top).parent, changes);
+    same = false;
+  }
+  std::vector<GroupIndex> made;
+  made.reserve(selection.added.size());
+  for (const NewGroup& added : selection.added) {
+    const NodeIndex parent = added.parent.valid() ? added.parent : nodeOf(made[added.parentAdded], added.octant);
+    const GroupIndex group = tree.split(parent, added.bounds);
+    tree.group(group).key = added.key;
+    made.push_back(group);
+    jobs.add(group);
+    publishIfComplete(group);
+  }
+  targetDetail = std::max(std::min(selection.detail / kHysteresis, selection.residentDetail), kLeastDetail);
+  return same;
+}
+
+void StreamState::Impl::followDetail(bool snap) {
+  if (snap) following = true;
+  if (following) {
+    detail = targetDetail;
+  } else if (targetDetail > detail) {
+    detail = std::min(targetDetail, detail * kGlideUp);
+  } else {
+    detail = std::max(targetDetail, detail * kGlideDown);
+  }
+}
+
+// Joins the altitudes of all bricks that a visible ray may sample: leaves, and those far enough that their level is sampled.
+void StreamState::Impl::findBand(NodeIndex node, const NodeView& view, const NodeView::Seen& above) {
+  const Node& n = tree.node(node);
+  if (!(n.joined.max > 0) || (n.joined.base_m >= bandBase_m && n.joined.top_m <= bandTop_m)) return;
+  const NodeAddress at = tree.address(node);
+  const NodeView::Seen seen = view.look(at, above);
+  if (!seen.visible()) return;
+  const bool open = n.children.valid() && tree.group(n.children).reachable;
+  if (n.own.max > 0 && (!open || view.farDistance_m(at) >= kSampledFrom * detail * root.nodeSize_m(at.level))) {
+    bandBase_m = std::min(bandBase_m, n.own.base_m);
+    bandTop_m = std::max(bandTop_m, n.own.top_m);
+  }
+  if (!open) return;
+  for (std::uint32_t octant = 0; octant < 8; ++octant) findBand(nodeOf(n.children, octant), view, seen);
+}
+
+void StreamState::Impl::writeOut(FrameEdits& edits) {
+  auto& touched = changes.touched;
+  std::sort(touched.begin(), touched.end());
+  for (const NodeIndex node : touched) {
+    if (tree.takeTouched(node)) edits.nodes.push_back({node.value, tree.words(node)});
+  }
+  const auto reachable = [&](NodeIndex node) { return tree.isLive(groupOf(node)) && tree.group(groupOf(node)).reachable; };
+  // A dirty node covers the dirty ones below it.
+  std::vector<NodeIndex> dirty;
+  for (const NodeIndex node : changes.dirty) {
+    if (reachable(node)) dirty.push_back(node);
+  }
+  std::sort(dirty.begin(), dirty.end());
+  dirty.erase(std::unique(dirty.begin(), dirty.end()), dirty.end());
+  for (const NodeIndex node : dirty) {
+    bool covered = false;
+    for (NodeIndex above = tree.parentOf(node); above.valid() && !covered; above = tree.parentOf(above)) {
+      covered = std::binary_search(dirty.begin(), dirty.end(), above);
+    }
+    const NodeAddress at = tree.address(node);
+    if (!covered) edits.dirty.push_back({at.corner, at.level});
+  }
+  for (const NodeIndex node : changes.shown) {
+    const Node& n = tree.node(node);
+    if (!reachable(node) || n.brick.isZero() || n.pending) continue;
+    const NodeAddress at = tree.address(node);
+    edits.light.push_back({n.brick.value, at.corner, at.level});
+  }
+  changes.clear();
+}
+
+ResidencyStats StreamState::Impl::stats(bool settled) const {
+  ResidencyStats s;
+  s.nodes = tree.nodeCount();
+  s.groups = tree.groupPool().used();
+  s.bricks = tree.brickPool().used();
+  s.brickCapacity = settings.brickCapacity;
+  s.emptyNodes = s.nodes - (s.bricks - 1);
+  s.pendingBricks = tree.pendingBricks();
+  for (std::uint32_t level = 0; level <= shared::kMaxDepth; ++level) s.bricksByLevel[level] = tree.bricksAtLevel(level);
+  s.cpuBytes = tree.bytes() + jobs.bytes() + selection.bytes();
+  s.selectedDetail = selection.detail;
+  s.settled = settled;
+  return s;
+}
+
+FrameEdits StreamState::Impl::step(const FrameInput& input) {
+  FrameEdits edits;
+  edits.frame = input.frame;
+  if (!planted) plant(edits);
+  receive(input.results);
+  motion.advance(input.camera, input.snap);
+  const bool work = selectionStale || motion.changed() || !input.results.empty();
+  if (work) selectionStale = !reselect();
+  edits.generate = jobs.take(input.maxBricks);
+  const double detailBefore = detail;
+  followDetail(input.snap);
+  const bool idle = !selectionStale && tree.pendingBricks() == 0;
+  if (idle) following = false;
+  if (work || detail != detailBefore) {
+    SelectionView view = motion.view();
+    view.cloudBase_m = source.base_m();
+    view.cloudTop_m = source.top_m();
+    bandBase_m = std::numeric_limits<float>::infinity();
+    bandTop_m = -bandBase_m;
+    if (tree.group(kRootGroup).reachable) findBand(kRootNode, NodeView(root, view), {});
+    if (bandBase_m > bandTop_m) bandBase_m = bandTop_m = 0;
+  }
+  writeOut(edits);
+  edits.sampleDetail = static_cast<float>(detail);
+  edits.sampleNear_m = static_cast<float>(motion.view().near_m);
+  edits.bandBase_m = bandBase_m;
+  edits.bandTop_m = bandTop_m;
+  edits.stats = stats(idle && detail == targetDetail && motion.view().near_m == 0);
+  return edits;
+}
+
+StreamState::StreamState(const DensitySource& source, const RootFrame& root, StreamSettings settings)
+    : impl_(std::make_unique<Impl>(source, root, settings)) {}
+StreamState::~StreamState() = default;
+FrameEdits StreamState::step(const FrameInput& input) { return impl_->step(input); }
+std::string StreamState::validate() const {
+  if (impl_->tree.brickPool().capacity() < impl_->tree.brickPool().used()) return "more bricks than the capacity";
+  return validateTree(impl_->tree, impl_->source.maxExtinction());
+}
+
+}  // namespace welkin
