@@ -1,0 +1,57 @@
+#pragma once
+// What commands share: sizes, ranges, the common options, and the scene or picture that they start from.
+#include <fmt/format.h>  // before shared headers, whose macro F its templates would meet
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "welkin/app/picture.h"
+#include "welkin/core/result.h"
+#include "welkin/measure/timings.h"
+#include "welkin/physics/scene.h"
+
+namespace welkin::app {
+
+struct Size {
+  int width = 1280, height = 720;
+};
+Result<Size> parseSize(const std::string& text);  // "1280x720", 1..16384 each
+
+struct FrameRange {  // first, and one past the last; the end may be open
+  int first = 0;
+  std::optional<int> end;
+};
+Result<FrameRange> parseRange(const std::string& text);            // "A:B", "A:", ":B"
+Result<std::vector<int>> parseFrameList(const std::string& text);  // "0,10,20": ascending, without repeats
+
+// Options as given; what is absent leaves the scene's own value.
+struct CommonOptions {
+  std::optional<Size> size;
+  std::optional<std::uint64_t> budget_bytes;
+  std::optional<int> depth;
+  std::optional<double> step, detail;
+  std::optional<std::uint32_t> seed;
+  std::string gpu = "auto";
+  bool quiet = false;
+  std::filesystem::path json;
+};
+void apply(const CommonOptions& options, Scene& scene);
+
+// What `render` and `plan` start from: a scene file with one of its views, or a picture with the view it shows.
+struct Start {
+  Scene scene;
+  View view;
+  std::string viewName;
+  Size size;
+  double time_s = 0;
+  std::optional<double> exposure_ev;  // of a picture
+};
+// `viewName` empty: the only view, or "default", or the first one by name; a picture's own. The error names the views that are there.
+Result<Start> loadStart(const std::filesystem::path& file, const std::string& viewName);
+
+// Context of reports, but for what the GL tells.
+measure::ReportContext describeRun(const Scene& scene, Size size);
+
+}  // namespace welkin::app

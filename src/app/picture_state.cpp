@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "welkin/app/checksum.h"
+#include "welkin/app/picture.h"
+#include "welkin/core/files.h"
+#include "welkin/core/units.h"
+#include "welkin/physics/path_io.h"
+#include "welkin/physics/scene_io.h"
+
+namespace welkin::app {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+fs::path relativeTo(const fs::path& file, const fs::path& folder) {
+  return fs::absolute(file).lexically_normal().lexically_proximate(fs::absolute(folder).lexically_normal());
+}
+
+struct BadState {
+  std::string message;
+};
+
+class Reader {
+ public:
+  Reader(const Texts& texts, const fs::path& picture) : texts_(texts), picture_(picture.string()) {}
+
+  const std::string& text(const std::string& key) const {
+    for (const auto& [name, value] : texts_) {
+      if (name == key) return value;
+    }
+    throw BadState{fmt::format("{}: not a picture of this program: expected the text \"{}\"", picture_, key)};
+  }
+  std::string place(const std::string& key) const { return picture_ + ": " + key; }
+
+  Json object(const std::string& key) const {
+    auto value = Json::parse(text(key), nullptr, false);
+    if (!value.is_object()) fail(key, "a JSON object");
+    return value;
+  }
+  int edge(const Json& settings, const char* key) const {
+    const auto found = settings.find(key);
+    const bool whole =
+        found != settings.end() && found->is_number_unsigned() && found->get<std::uint64_t>() <= std::uint64_t(kMaxPictureEdge);
+    if (!whole || found->get<int>() < 1)
+      fail(std::string("welkin:settings: /") + key, fmt::format("a whole number from 1 to {}", kMaxPictureEdge));
+    return found->get<int>();
+  }
+  double number(const Json& object, const char* key) const {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number() || !std::isfinite(found->get<double>())) {
+      fail(std::string("welkin:settings: /") + key, "a number");
+    }
+    return found->get<double>();
+  }
+  double number(const std::string& key) const {
+    const std::string& value = text(key);
+    double out = 0;
+    const auto parsed = std::from_chars(value.data(), value.data() + value.size(), out);
+    if (parsed.ec != std::errc() || parsed.ptr != value.data() + value.size() || !std::isfinite(out)) fail(key, "a number");
+    return out;
+  }
+  [[noreturn]] void fail(const std::string& key, const std::string& expected) const {
+    throw BadState{fmt::format("{}: {}: expected {}", picture_, key, expected)};
+  }
+
+ private:
+  const Texts& texts_;
+  std::string picture_;
+};
+
+}  // namespace
+
+Texts textsFromState(const PictureState& s, const fs::path& folder) {
+  const auto& q = s.scene.quality;
+  const Json settings{{"width", s.width}, {"height", s.height}, {"budget", bytesExact(q.budget_bytes)}, {"depth", q.depth},
+                      {"step", q.step},   {"detail", q.detail}, {"exposure_ev", s.exposure_ev}};
+  Json data = Json::object();
+  for (const auto& [file, sum] : s.data) data[relativeTo(file, folder).generic_string()] = sum;
+  return {{"welkin:scene", sceneToJson(s.scene, folder, -1)},
+          {"welkin:view", viewToJson(s.view)},
+          {"welkin:settings", settings.dump()},
+          {"welkin:seed", std::to_string(q.seed)},
+          {"welkin:time_s", fmt::format("{:.17g}", s.time_s)},
+          {"welkin:data", data.dump(-1, ' ', false, Json::error_handler_t::replace)},
+          {"welkin:build", s.build},
+          {"welkin:converged", s.converged ? "1" : "0"}};
+}
+
+Result<PictureState> stateFromTexts(const Texts& texts, const fs::path& picture) {
+  try {
+    const Reader in(texts, picture);
+    PictureState s;
+    auto scene = parseScene(in.text("welkin:scene"), in.place("welkin:scene"), folderOf(picture));
+    if (!scene) return scene.error();
+    s.scene = std::move(*scene);
+    s.scene.file = picture;
+    auto view = parseView(in.text("welkin:view"), in.place("welkin:view"), s.scene.planet);
+    if (!view) return view.error();
+    s.view = *view;
+    const auto settings = in.object("welkin:settings");
+    s.width = in.edge(settings, "width");
+    s.height = in.edge(settings, "height");
+    s.exposure_ev = in.number(settings, "exposure_ev");
+    s.time_s = in.number("welkin:time_s");
+    s.build = in.text("welkin:build");
+    s.converged = in.text("welkin:converged") == "1";
+    const auto data = in.object("welkin:data");
+    for (const auto& entry : data.items()) {
+      if (!entry.value().is_string()) in.fail("welkin:data", "a checksum for every file");
+      s.data[fs::absolute(folderOf(picture) / entry.key()).lexically_normal()] = entry.value().get<std::string>();
+    }
+    return s;
+  } catch (const BadState& bad) {
+    return Error{bad.message};
+  }
+}
+
+Result<void> findData(PictureState& state, const fs::path& picture) {
+  std::map<fs::path, std::string> found;
+  for (const auto& [file, sum] : state.data) {
+    std::error_code ec;
+    fs::path place = file;
+    if (!fs::exists(place, ec)) {
+      // The picture was moved: the same path without its way up, below the working folder.
+      fs::path below;
+      for (const auto& part : relativeTo(file, folderOf(picture))) {
+        if (part != ".." && !part.is_absolute()) below /= part;
+      }
+      if (fs::exists(below, ec)) place = fs::absolute(below).lexically_normal();
+    }
+    const bool there = fs::exists(place, ec);
+    if (sum == kMissing) {
+      // It was drawn without the file (procedural weather, plain ground); were it read now, it would be another picture.
+      if (there) {
+        replaceDataFile(state.scene, file, {});
+        continue;
+      }
+    } else if (!there) {
+      return Error{fmt::format("{}: welkin:data: missing data: {} (sha256 {})", picture.string(), file.string(), oneLine(sum, 64))};
+    } else {
+      const auto now = sha256File(place);
+      if (!now) return now.error();
+      if (*now != sum) {
+        return Error{fmt::format("{}: welkin:data: {} has changed: expected sha256 {}, got {}", picture.string(), place.string(),
+                                 oneLine(sum, 64), *now)};
+      }
+    }
+    replaceDataFile(state.scene, file, place);
+    found[place] = sum;
+  }
+  state.data = std::move(found);
+  return {};
+}
+
+}  // namespace welkin::app
