@@ -1,0 +1,118 @@
+#include "welkin/physics/air.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace welkin {
+namespace {
+
+Result<void> setProfile(shared::AirLayer& out, const AirLayer& in) {
+  const auto wrong = [&](const char* what) { return Error{"atmosphere layer '" + in.name + "': " + what}; };
+  if (const auto* e = std::get_if<ExponentialProfile>(&in.profile)) {
+    if (!(e->scaleHeight_m > 0)) return wrong("scale_height_m must be greater than 0");
+    out.profile = shared::kProfileExponential;
+    out.a = static_cast<float>(1 / e->scaleHeight_m);
+  } else if (const auto* t = std::get_if<TentProfile>(&in.profile)) {
+    if (!(t->halfWidth_m > 0)) return wrong("half_width_m must be greater than 0");
+    out.profile = shared::kProfileTent;
+    out.a = static_cast<float>(t->peak_m);
+    out.b = static_cast<float>(1 / t->halfWidth_m);
+  } else if (const auto* u = std::get_if<UniformProfile>(&in.profile)) {
+    if (!(u->top_m > u->base_m)) return wrong("top_m must be greater than base_m");
+    out.profile = shared::kProfileUniform;
+    out.a = static_cast<float>(u->base_m);
+    out.b = static_cast<float>(u->top_m);
+  }
+  return {};
+}
+
+Result<shared::AirLayer> layerOf(const AirLayer& in) {
+  shared::AirLayer out{};
+  if (auto r = setProfile(out, in); !r) return r.error();
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(in.scattering_per_m[i] >= 0) || !(in.absorption_per_m[i] >= 0))
+      return Error{"atmosphere layer '" + in.name + "': scattering_per_m and absorption_per_m must not be negative"};
+  if (!(std::abs(in.g) < 1)) return Error{"atmosphere layer '" + in.name + "': g must lie between -1 and 1"};
+  const auto f = [](double v) { return static_cast<float>(v); };
+  out.scatteringR = f(in.scattering_per_m[0]), out.scatteringG = f(in.scattering_per_m[1]), out.scatteringB = f(in.scattering_per_m[2]);
+  out.absorptionR = f(in.absorption_per_m[0]), out.absorptionG = f(in.absorption_per_m[1]), out.absorptionB = f(in.absorption_per_m[2]);
+  out.g = f(in.g);
+  switch (in.phase) {
+    case PhaseType::Rayleigh: out.phase = shared::kPhaseRayleigh; break;
+    case PhaseType::CornetteShanks: out.phase = shared::kPhaseCornetteShanks; break;
+    case PhaseType::HenyeyGreenstein: out.phase = shared::kPhaseHenyeyGreenstein; break;
+    case PhaseType::Isotropic: out.phase = shared::kPhaseIsotropic; break;
+  }
+  return out;
+}
+
+bool peaked(const shared::AirLayer& l) {
+  return (l.phase == shared::kPhaseCornetteShanks || l.phase == shared::kPhaseHenyeyGreenstein) && std::abs(l.g) > 0.3f;
+}
+
+}  // namespace
+
+Result<shared::AirBlock> airBlock(const Scene& scene) {
+  if (!scene.atmosphere) return Error{"the scene has no atmosphere"};
+  const Atmosphere& atmosphere = *scene.atmosphere;
+  if (atmosphere.layers.size() > shared::kMaxAirLayers)
+    return Error{"atmosphere: at most " + std::to_string(shared::kMaxAirLayers) + " layers, found " + std::to_string(atmosphere.layers.size())};
+  if (!(atmosphere.top_m > 0) || !(scene.planet.radius_m > 0)) return Error{"atmosphere: top_m and the planet's radius_m must be greater than 0"};
+  shared::AirBlock block{};
+  shared::AirParams& p = block.params;
+  p.radius_m = static_cast<float>(scene.planet.radius_m);
+  p.top_m = static_cast<float>(atmosphere.top_m);
+  p.layerCount = static_cast<std::uint32_t>(atmosphere.layers.size());
+  p.peakLayer = shared::kNoLayer;
+  if (scene.sun) {
+    p.sunRadius_rad = static_cast<float>(scene.sun->angularRadius_rad);
+    p.sunR = static_cast<float>(scene.sun->irradiance[0]);
+    p.sunG = static_cast<float>(scene.sun->irradiance[1]);
+    p.sunB = static_cast<float>(scene.sun->irradiance[2]);
+  }
+  p.albedoR = static_cast<float>(scene.planet.albedo[0]);
+  p.albedoG = static_cast<float>(scene.planet.albedo[1]);
+  p.albedoB = static_cast<float>(scene.planet.albedo[2]);
+  float strongest = 0;
+  for (std::uint32_t i = 0; i < p.layerCount; ++i) {
+    auto layer = layerOf(atmosphere.layers[i]);
+    if (!layer) return layer.error();
+    block.layers[i] = *layer;
+    if (!peaked(*layer) || layer->scatteringG <= strongest) continue;
+    strongest = layer->scatteringG;
+    p.peakLayer = i;
+    p.peakPhase = layer->phase;
+    p.peakG = layer->g;
+  }
+  return block;
+}
+
+shared::AirViewFrame airViewFrame(const shared::AirParams& air, double centre_m, double altitude_m, glm::dvec3 up, glm::dvec3 toSun) {
+  const double radius = air.radius_m, top = air.top_m;
+  const bool outside = altitude_m > top;
+  const double anchor = outside ? top : std::max(altitude_m, 0.0);
+  const double muHorizon = -std::sqrt(anchor * (2 * radius + anchor)) / (radius + anchor);
+  const double cosSun = std::clamp(glm::dot(up, toSun), -1.0, 1.0);
+  glm::dvec3 axis = toSun - up * cosSun;
+  if (!(glm::dot(axis, axis) > 0)) axis = glm::cross(up, std::abs(up.z) < 0.5 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0));  // any: sun overhead
+  axis = glm::normalize(axis);
+  const auto f = [](double v) { return static_cast<float>(v); };
+  shared::AirViewFrame v{};
+  v.upX = f(up.x), v.upY = f(up.y), v.upZ = f(up.z);
+  v.axisX = f(axis.x), v.axisY = f(axis.y), v.axisZ = f(axis.z);
+  v.sunX = f(toSun.x), v.sunY = f(toSun.y), v.sunZ = f(toSun.z);
+  v.muHorizon = f(muHorizon);
+  v.skyEnd = outside ? 1.0f : 0.0f;  // entering rays descend: their zenith cosine ends at 0
+  v.skyChord = f(std::sqrt(1 - muHorizon));
+  v.groundChord = f(std::sqrt(1 + muHorizon));
+  v.anchorAltitude_m = f(anchor);
+  v.skySlices = f(anchor / top - 1);               // dense near a camera in thick air, even through the limb
+  v.groundSlices = f(anchor / (anchor + 10'000));  // dense near the ground for a camera above thick air
+  v.cosSun = f(cosSun);
+  v.sinSun = f(std::sqrt(1 - cosSun * cosSun));
+  v.anchorOverCentre = outside ? f((radius + top) / centre_m) : 1.0f;
+  return v;
+}
+
+}  // namespace welkin

@@ -1,0 +1,18 @@
+#pragma once
+// The scene's air as shaders and their C++ twins read it.
+#include "welkin/core/result.h"
+#include "welkin/physics/scene.h"
+#include "welkin/shared/air.glsl.h"
+
+namespace welkin {
+
+// Lengths in metres, coefficients in 1/m at 680, 550, 440 nm. No sun: its irradiance is 0. The view frame is left zero. Fails in one line
+// without an atmosphere, with more than six layers, or with values out of range. The layer with the sharpest phase function
+// (Henyey-Greenstein or Cornette-Shanks with |g| > 0.3; of several the one that scatters most) becomes `peakLayer`.
+Result<shared::AirBlock> airBlock(const Scene& scene);
+
+// View frame for a camera at this distance from the centre and altitude above the ground (doubles: their difference is exact),
+// camera's radial direction and direction towards the sun, both unit, planet frame.
+shared::AirViewFrame airViewFrame(const shared::AirParams& air, double centre_m, double altitude_m, glm::dvec3 up, glm::dvec3 toSun);
+
+}  // namespace welkin

@@ -1,0 +1,118 @@
+#include "welkin/render/composite/composite_pass.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "welkin/shared/bindings.glsl.h"
+#include "welkin/shared/tonemap.glsl.h"
+
+namespace welkin {
+namespace {
+
+Result<gpu::Texture> target(gpu::MemoryAccount& account, GLenum format, int width, int height) {
+  gpu::TextureSpec spec;
+  spec.format = format;
+  spec.width = width, spec.height = height;
+  spec.filter = GL_NEAREST;
+  spec.frameTarget = true;
+  return gpu::Texture::create(account, "picture", spec);
+}
+
+// Half the width and height: the mean of 2 x 2 pixels, of their sRGB values (only pictures far finer than the screen come here).
+AlbedoPicture halved(const AlbedoPicture& in) {
+  AlbedoPicture out{in.width / 2, in.height / 2, {}};
+  out.rgba.resize(static_cast<std::size_t>(out.width) * out.height * 4);
+  const auto at = [&](int x, int y, int c) { return in.rgba[(static_cast<std::size_t>(y) * in.width + x) * 4 + c]; };
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x)
+      for (int c = 0; c < 4; ++c) {
+        const int sum = at(2 * x, 2 * y, c) + at(2 * x + 1, 2 * y, c) + at(2 * x, 2 * y + 1, c) + at(2 * x + 1, 2 * y + 1, c);
+        out.rgba[(static_cast<std::size_t>(y) * out.width + x) * 4 + c] = static_cast<std::uint8_t>((sum + 2) / 4);
+      }
+  return out;
+}
+
+}  // namespace
+
+Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const Scene& scene, int width, int height, const AlbedoPicture* albedo) {
+  CompositePass pass;
+  pass.account_ = &account;
+  pass.width_ = width, pass.height_ = height;
+  const auto vec = [](const Spectrum3& s) { return glm::vec3(s[0], s[1], s[2]); };
+  pass.albedo_ = vec(scene.planet.albedo);
+  if (scene.sun) {
+    pass.toSun_ = scene.sun->direction_planet;
+    pass.sunIrradiance_ = vec(scene.sun->irradiance);
+    pass.sunRadius_rad_ = static_cast<float>(scene.sun->angularRadius_rad);
+  }
+  const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
+  auto program = gpu::Program::compute("pass/composite/composite.comp",
+                                       {{"OPT_CLOUDS", onOff(scene.clouds.has_value())}, {"OPT_AIR", onOff(scene.atmosphere.has_value())},
+                                        {"OPT_SUN", onOff(scene.sun.has_value())}, {"OPT_ALBEDO_MAP", onOff(albedo != nullptr)}});
+  if (!program) return program.error();
+  pass.program_ = std::move(*program);
+  auto radiance = target(account, GL_RGBA32F, width, height);
+  if (!radiance) return radiance.error();
+  pass.radiance_ = std::move(*radiance);
+  auto display = target(account, GL_RGBA8, width, height);
+  if (!display) return display.error();
+  pass.display_ = std::move(*display);
+  if (albedo)
+    if (auto r = pass.loadAlbedo(account, *albedo); !r) return r.error();
+  return pass;
+}
+
+Result<void> CompositePass::loadAlbedo(gpu::MemoryAccount& account, AlbedoPicture picture) {
+  const auto bytes = [&] { return static_cast<std::uint64_t>(picture.width) * picture.height * 4 * 4 / 3 + 64; };  // with all smaller copies
+  while (picture.width > 2048 || (bytes() > account.budget() / 16 && picture.width > 2 && picture.height > 2)) picture = halved(picture);
+  if (!account.charge("albedo", bytes()))
+    return Error{"the picture of the ground needs " + std::to_string(bytes()) + " bytes of GPU memory, which the budget has not"};
+  albedoBytes_ = bytes();
+  glCreateTextures(GL_TEXTURE_2D, 1, &albedoMap_);
+  const int levels = static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(picture.width, picture.height))));
+  glTextureStorage2D(albedoMap_, levels, GL_SRGB8_ALPHA8, picture.width, picture.height);
+  glTextureSubImage2D(albedoMap_, 0, 0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+  glGenerateTextureMipmap(albedoMap_);
+  glTextureParameteri(albedoMap_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTextureParameteri(albedoMap_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTextureParameteri(albedoMap_, GL_TEXTURE_WRAP_S, GL_REPEAT);
+  glTextureParameteri(albedoMap_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return {};
+}
+
+CompositePass::~CompositePass() {
+  if (!albedoMap_) return;
+  glDeleteTextures(1, &albedoMap_);
+  account_->release("albedo", albedoBytes_);
+}
+
+void CompositePass::swap(CompositePass& o) noexcept {
+  std::swap(program_, o.program_);
+  radiance_.swap(o.radiance_);
+  display_.swap(o.display_);
+  std::swap(width_, o.width_), std::swap(height_, o.height_);
+  std::swap(albedo_, o.albedo_), std::swap(toSun_, o.toSun_), std::swap(sunIrradiance_, o.sunIrradiance_);
+  std::swap(sunRadius_rad_, o.sunRadius_rad_);
+  std::swap(albedoMap_, o.albedoMap_), std::swap(albedoBytes_, o.albedoBytes_), std::swap(account_, o.account_);
+}
+
+void CompositePass::run(const shared::CameraBlock& camera, double exposure_ev) const {
+  const glm::dvec3 up = shared::xyz(camera.up);
+  const double pixel_rad = 2 * glm::length(up) / height_;
+  if (albedoMap_) glBindTextureUnit(WK_ALBEDO_UNIT, albedoMap_);
+  program_.set("u_size", glm::ivec2(width_, height_));
+  program_.set("u_albedo", albedo_);
+  program_.set("u_sunDir", toSun_);
+  program_.set("u_sunIrradiance", sunIrradiance_);
+  program_.set("u_sunRadius_rad", sunRadius_rad_);
+  program_.set("u_pixel_rad", static_cast<float>(pixel_rad));
+  program_.set("u_exposure", static_cast<float>(shared::kBaseExposure * std::exp2(exposure_ev)));
+  radiance_.bindImage(0, GL_WRITE_ONLY);
+  display_.bindImage(1, GL_WRITE_ONLY);
+  program_.dispatch(static_cast<unsigned>(width_ + 7) / 8, static_cast<unsigned>(height_ + 7) / 8);
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+}  // namespace welkin

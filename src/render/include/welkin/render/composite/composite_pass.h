@@ -1,0 +1,52 @@
+#pragma once
+// The last pass: ground, sun, air and the cloud layer to one picture, in linear radiance and tone-mapped.
+#include <cstdint>
+#include <vector>
+
+#include "welkin/core/result.h"
+#include "welkin/gpu/memory.h"
+#include "welkin/gpu/program.h"
+#include "welkin/gpu/resources.h"
+#include "welkin/physics/scene.h"
+#include "welkin/shared/camera.glsl.h"
+
+namespace welkin {
+
+// Equirectangular picture of the ground: sRGB, RGBA, top row north, longitude 0 in the middle.
+struct AlbedoPicture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+};
+
+class CompositePass {
+ public:
+  // Fails in one line: over the budget, or a shader that does not compile. What the scene has not is not compiled. The picture is halved
+  // until it is at most 2048 wide and, with its smaller copies, at most 1/16 of the budget.
+  static Result<CompositePass> create(gpu::MemoryAccount& account, const Scene& scene, int width, int height, const AlbedoPicture* albedo = nullptr);
+  ~CompositePass();
+  CompositePass(CompositePass&& o) noexcept { swap(o); }
+  CompositePass& operator=(CompositePass&& o) noexcept { swap(o); return *this; }
+
+  // Reads the camera (WK_CAMERA_BINDING, the same block as here), the sky tables (SkyTables::bind) and the cloud layer's two textures; counts
+  // into WK_COUNTERS_BINDING. Exposure in EV: 0 suits a sun of irradiance 1.
+  void run(const shared::CameraBlock& camera, double exposure_ev) const;
+
+  const gpu::Texture& radiance() const { return radiance_; }  // RGBA32F, linear, before exposure; a = 1 - cloud transmittance
+  const gpu::Texture& display() const { return display_; }    // RGBA8, sRGB values
+
+ private:
+  CompositePass() = default;
+  void swap(CompositePass& o) noexcept;
+  Result<void> loadAlbedo(gpu::MemoryAccount& account, AlbedoPicture picture);
+
+  gpu::Program program_;
+  gpu::Texture radiance_, display_;
+  int width_ = 0, height_ = 0;
+  glm::vec3 albedo_{}, toSun_{}, sunIrradiance_{};
+  float sunRadius_rad_ = 0;
+  GLuint albedoMap_ = 0;  // with smaller copies, which gpu::Texture has not
+  std::uint64_t albedoBytes_ = 0;
+  gpu::MemoryAccount* account_ = nullptr;
+};
+
+}  // namespace welkin

@@ -1,0 +1,182 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+
+#include "sky_scene.h"
+#include "welkin/core/files.h"
+#include "welkin/gpu/context.h"
+#include "welkin/gpu/timer.h"
+#include "welkin/render/composite/composite_pass.h"
+#include "welkin/render/sky/sky_tables.h"
+#include "welkin/shared/bindings.glsl.h"
+#include "welkin/shared/counters.glsl.h"
+
+namespace welkin {
+namespace {
+
+using namespace test;
+
+class Sky : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = gpu::Context::createHeadless();
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    context = std::move(*made);
+    camera = std::move(gpu::Buffer::create(account, "camera", sizeof(shared::CameraBlock)).value());
+    counters = std::move(gpu::Buffer::create(account, "counters", sizeof(shared::Counters)).value());
+  }
+  void TearDown() override {
+    for (const auto& message : context->firstMessages()) ADD_FAILURE() << message;
+  }
+  void upload(const shared::CameraBlock& block) {
+    camera.upload(0, std::as_bytes(std::span(&block, 1)));
+    camera.bind(GL_UNIFORM_BUFFER, WK_CAMERA_BINDING);
+    counters.bind(GL_SHADER_STORAGE_BUFFER, WK_COUNTERS_BINDING);
+  }
+  std::uint32_t nanPixels() {
+    shared::Counters c{};
+    counters.download(0, std::as_writable_bytes(std::span(&c, 1)));
+    return c.nanPixels;
+  }
+  std::unique_ptr<gpu::Context> context;
+  gpu::MemoryAccount account{256ull << 20};
+  gpu::Buffer camera, counters;
+};
+
+MultipleTable readMultiple(const SkyTables& sky) {
+  MultipleTable table{std::vector<glm::vec4>(shared::kSunTexels * shared::kAltitudeTexels)};
+  glGetTextureImage(sky.multiple().id(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(table.texels.size() * 16), table.texels.data());
+  return table;
+}
+
+struct Pose {
+  const char* name;
+  double altitude_m, sunZenith_deg, azimuth_deg, pitch_deg, fov_deg;
+};
+
+// The tables against a march in double of the same equation (sun's depth integrated at each step, same multiple scattering).
+TEST_F(Sky, AlongAgainstMarchInDouble) {
+  std::mt19937 random(7);
+  std::printf("%-30s %8s %8s %8s | %9s %9s\n", "pose", "median", "p95", "max", "T max", "255 max");
+  auto program = gpu::Program::compute("../tests/gpu/render/air_probe.comp");
+  ASSERT_TRUE(program.ok()) << program.error().message;
+  for (const double altitude : {2.0, 9000.0, 60'000.0, 400'000.0, 30e6})
+    for (const double zenith : {42.0, 85.0, 90.0, 95.0}) {
+      const Scene scene = skyScene(zenith * kDegree);
+      auto sky = SkyTables::create(account, scene);
+      ASSERT_TRUE(sky.ok()) << sky.error().message;
+      const double horizon = std::acos(scene.planet.radius_m / (scene.planet.radius_m + altitude));
+      const double fov = altitude > 1e7 ? 24 * kDegree : 100 * kDegree;
+      const auto view = cameraOver(scene, altitude, 30 * kDegree, altitude > 1e7 ? -90 * kDegree : -0.6 * horizon, fov, 1.5);
+      const int n = 64;
+      std::vector<glm::vec4> rays(n);
+      std::uniform_real_distribution<float> unit(-1, 1);
+      for (int i = 0; i < n; ++i) {
+        const double far = (i % 2) ? 1e12 : std::max(altitude - 100e3, 0.0) + std::exp(std::uniform_real_distribution<double>(5, 14)(random));
+        rays[static_cast<std::size_t>(i)] = {unit(random), unit(random), float(far), 0};
+      }
+      upload(view);
+      sky->updateView(view, scene.sun->direction_planet);
+      sky->bind();
+      auto in = std::move(gpu::Buffer::create(account, "rays", n * 16).value());
+      auto out = std::move(gpu::Buffer::create(account, "answers", n * 32).value());
+      in.upload(0, rays);
+      in.bind(GL_SHADER_STORAGE_BUFFER, 0);
+      out.bind(GL_SHADER_STORAGE_BUFFER, 1);
+      program->dispatch(n / 64);
+      glMemoryBarrier(GL_ALL_BARRIER_BITS);
+      std::vector<glm::vec4> answers(2 * n);
+      out.download(0, std::as_writable_bytes(std::span(answers)));
+      const MultipleTable multiple = readMultiple(*sky);
+      std::vector<double> errors;
+      double worstT = 0, worst255 = 0, brightest = 0;
+      for (int i = 0; i < n; ++i) {
+        const auto& ray = rays[static_cast<std::size_t>(i)];
+        const glm::dvec3 dir = glm::normalize(shared::xyz(view.forward) + shared::xyz(view.right) * double(ray.x) + shared::xyz(view.up) * double(ray.y));
+        const TrueAir truth = trueAir(sky->block(), multiple, shared::xyz(view.position), dir, scene.sun->direction_planet, ray.z);
+        const glm::dvec3 light(answers[2 * i]), through(answers[2 * i + 1]);
+        brightest = std::max({brightest, truth.inscatter.x, truth.inscatter.y, truth.inscatter.z});
+        for (int c = 0; c < 3; ++c) {
+          if (truth.inscatter[c] > 1e-5) errors.push_back(std::abs(light[c] / truth.inscatter[c] - 1));
+          worstT = std::max(worstT, std::abs(through[c] - truth.transmittance[c]));
+          worst255 = std::max(worst255, 4 * 255 * std::abs(light[c] - truth.inscatter[c]));
+          if (std::getenv("SKY_RAYS") && std::abs(light[c] / truth.inscatter[c] - 1) > 0.1 && truth.inscatter[c] > 1e-5)
+            std::printf("  ray %d c%d far %g elev %.3f: %g truth %g  T %g truth %g\n", i, c, double(ray.z), std::asin(dir.z) / kDegree, light[c], truth.inscatter[c], through[c], truth.transmittance[c]);
+        }
+      }
+      std::sort(errors.begin(), errors.end());
+      const auto at = [&](double q) { return errors.empty() ? 0.0 : errors[static_cast<std::size_t>(q * double(errors.size() - 1))]; };
+      std::printf("%9.0f m, sun zenith %5.1f (%3zu) %8.4f %8.4f %8.4f | %9.5f %9.4f\n", altitude, zenith, errors.size(), at(0.5), at(0.95), at(1), worstT, worst255);
+    }
+}
+
+TEST_F(Sky, Pictures) {
+  const char* folder = std::getenv("WELKIN_TEST_PICTURES");
+  const int width = folder ? 640 : 160, height = folder ? 360 : 90;
+  const Pose poses[] = {
+      {"eye_noon", 2, 42, 60, 15, 58},         {"eye_to_sun", 2, 70, 0, 20, 58},     {"eye_low_sun", 2, 85, 0, 5, 58},      {"eye_sunset", 2, 90, 0, 5, 58},
+      {"eye_twilight", 2, 95, 0, 5, 58},      {"eye_night", 2, 115, 0, 5, 58},      {"near_noon", 9000, 42, 60, -3, 58},   {"near_sunset", 9000, 90, 20, -3, 58},
+      {"orbit_noon", 400e3, 42, 60, -25, 58}, {"orbit_limb", 400e3, 60, 90, -19.8, 3}, {"orbit_dawn", 400e3, 100, 0, -19, 40}, {"orbit_sunrise", 400e3, 108.5, 0, -19, 10},
+      {"space_day", 30e6, 42, 0, -90, 24},    {"space_half", 30e6, 90, 0, -90, 24}, {"space_limb", 30e6, 60, 0, -80, 2},  {"space_night", 30e6, 170, 0, -90, 24},
+      {"top_edge", 99.5e3, 70, 40, -8, 40},   {"eye_sun_disc", 2, 80, 0, 10, 4},    {"down_9km", 9000, 60, 0, -60, 90},    {"zenith", 2, 60, 0, 89, 100}};
+  for (const Pose& pose : poses) {
+    const Scene scene = skyScene(pose.sunZenith_deg * kDegree);
+    auto sky = SkyTables::create(account, scene);
+    ASSERT_TRUE(sky.ok()) << sky.error().message;
+    auto composite = CompositePass::create(account, scene, width, height);
+    ASSERT_TRUE(composite.ok()) << composite.error().message;
+    const auto view = cameraOver(scene, pose.altitude_m, pose.azimuth_deg * kDegree, pose.pitch_deg * kDegree, pose.fov_deg * kDegree, double(width) / height);
+    upload(view);
+    EXPECT_TRUE(sky->updateView(view, scene.sun->direction_planet));
+    EXPECT_FALSE(sky->updateView(view, scene.sun->direction_planet)) << "nothing changed";
+    sky->bind();
+    composite->run(view, 0);
+    EXPECT_EQ(nanPixels(), 0u) << pose.name;
+    if (!folder) continue;
+    std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width) * height * 4);
+    glGetTextureImage(composite->display().id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()), rgba.data());
+    std::string ppm = "P6 " + std::to_string(width) + " " + std::to_string(height) + " 255\n";
+    for (std::size_t i = 0; i < rgba.size(); ++i)
+      if (i % 4 != 3) ppm += static_cast<char>(rgba[i]);
+    ASSERT_TRUE(writeFile(std::string(folder) + "/" + pose.name + ".ppm", ppm).ok());
+  }
+}
+
+TEST_F(Sky, Times) {
+  const Scene scene = skyScene(42 * kDegree);
+  const double t0 = gpu::wall_ms(), c0 = gpu::processCpu_ms();
+  auto sky = SkyTables::create(account, scene);
+  ASSERT_TRUE(sky.ok());
+  glFinish();
+  std::printf("tables of the scene: %.0f ms wall, %.0f ms CPU; %.2f MiB\n", gpu::wall_ms() - t0, gpu::processCpu_ms() - c0, double(sky->bytes()) / (1 << 20));
+  auto composite = CompositePass::create(account, scene, 320, 180);
+  ASSERT_TRUE(composite.ok());
+  for (const double altitude : {2.0, 9000.0, 400e3, 8e6}) {
+    const auto view = cameraOver(scene, altitude, 1, altitude > 1e6 ? -1.5 : -0.05, 1, 16.0 / 9);
+    upload(view);
+    std::vector<double> update, draw;
+    for (int i = 0; i < 12; ++i) {
+      const auto moved = cameraOver(scene, altitude * (1 + 0.01 * i) + 3 * i, 1, altitude > 1e6 ? -1.5 : -0.05, 1, 16.0 / 9);
+      glFinish();
+      const double a = gpu::processCpu_ms();
+      EXPECT_TRUE(sky->updateView(moved, scene.sun->direction_planet));
+      glFinish();
+      const double b = gpu::processCpu_ms();
+      sky->updateView(view, scene.sun->direction_planet);
+      sky->bind();
+      glFinish();
+      const double c = gpu::processCpu_ms();
+      composite->run(view, 0);
+      glFinish();
+      update.push_back(b - a), draw.push_back(gpu::processCpu_ms() - c);
+    }
+    std::sort(update.begin(), update.end()), std::sort(draw.begin(), draw.end());
+    std::printf("%9.0f m: view tables %.2f ms CPU, composite 320x180 %.2f ms CPU\n", altitude, update[6], draw[6]);
+  }
+}
+
+}  // namespace
+}  // namespace welkin
