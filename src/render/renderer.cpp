@@ -6,17 +6,21 @@
 #include <deque>
 
 #include "render/bricks/brick_passes.h"
-#include "render/composite/composite_pass.h"
 #include "render/march/cloud_passes.h"
-#include "render/sky/sky_tables.h"
+#include "render/albedo_picture.h"
 #include "render/tree/resident_tree.h"
+#include "welkin/render/composite/composite_pass.h"
+#include "welkin/render/sky/sky_tables.h"
 #include "welkin/shared/counters.glsl.h"
+
+#include "welkin/shared/bindings.glsl.h"
 
 namespace welkin {
 namespace {
 
 constexpr std::uint64_t kLatency = 2;            // edits computed from frame k are applied at frame k + 2
 constexpr std::uint32_t kSettleBricks = 8192;    // bricks of one step while settling: nothing is drawn in between
+constexpr double kCloudShell_m = 20'000;         // the octree's root reaches this far above the ground
 constexpr int kMostSettleSteps = 4000;           // far over the count a tree of the largest budget needs
 constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and their alignment
 
@@ -57,7 +61,10 @@ struct Renderer::Impl {
   std::uint64_t frameNumber = 0;
   std::uint64_t step = 0;            // number of the next input to the worker
 
+  std::vector<std::string> notes;
+
   Result<void> create();
+  void note(std::string line) { notes.push_back(std::move(line)); }
   double shellTop_m() const { return plan.air ? scene.atmosphere->top_m : source ? std::max(source->top_m(), 1.0) : 1.0; }
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
   void apply(FrameEdits&& edits, glm::dvec3 camera_planet, bool draw, FrameStats& stats);
@@ -77,15 +84,22 @@ Result<void> Renderer::Impl::create() {
     if (!tables) return tables.error();
     sky.emplace(std::move(*tables));
   }
-  auto compositePass = CompositePass::create(account, scene, settings.width, settings.height);
+  AlbedoPicture albedo;
+  if (!scene.planet.albedoMap.empty()) {
+    auto picture = loadAlbedoPicture(scene);
+    if (!picture) note(picture.error().message + ": the ground is plain");
+    else albedo = std::move(*picture);
+  }
+  auto compositePass = CompositePass::create(account, scene, settings.width, settings.height, albedo.width ? &albedo : nullptr);
   if (!compositePass) return compositePass.error();
   composite.emplace(std::move(*compositePass));
   if (!plan.clouds) return {};
 
-  root = RootFrame::enclosing(scene.planet.radius_m, 20'000);
+  root = RootFrame::enclosing(scene.planet.radius_m, kCloudShell_m);
   auto made = makeDensitySource(scene, root);
   if (!made) return made.error();
   source = std::move(*made);
+  if (!source->note().empty()) note(source->note());
   const TreeLayout layout = TreeLayout::fit(treeBudget(scene, account, BrickPasses::bytes(*source)), std::uint32_t(scene.quality.depth));
   if (layout.bricks == 0) {
     const std::uint64_t least = account.used() + BrickPasses::bytes(*source) + kSmallBuffers + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
@@ -217,7 +231,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode) {
     r.clouds->run(frame, mode, r.scene, r.timer);
     stats.bricksGenerated = static_cast<std::uint32_t>(generate.size());
     r.timer.begin("composite");
-    r.composite->run(r.scene, frame.block, view.exposure_ev.value_or(r.scene.exposure_ev));
+    r.composite->run(frame.block, view.exposure_ev.value_or(r.scene.exposure_ev));
     r.timer.end();
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
@@ -225,7 +239,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode) {
     if (!r.asked.empty() || haveEdits || r.step == 0 || r.settings.waitForEdits) r.ask(frame, r.settings.bricksPerFrame, false);
   } else {
     r.timer.begin("composite");
-    r.composite->run(r.scene, frame.block, view.exposure_ev.value_or(r.scene.exposure_ev));
+    r.composite->run(frame.block, view.exposure_ev.value_or(r.scene.exposure_ev));
     r.timer.end();
   }
   shared::Counters counted{};
@@ -286,19 +300,20 @@ const Scene& Renderer::scene() const { return impl_->scene; }
 const gpu::MemoryAccount& Renderer::memory() const { return impl_->account; }
 
 std::vector<std::string> Renderer::notes() const {
-  std::vector<std::string> notes;
-  if (impl_->source && !impl_->source->note().empty()) notes.push_back(impl_->source->note());
-  return notes;
+  return impl_->notes;
 }
 
-std::uint64_t leastBudget(const Scene& scene) {
-  // Cover map (6 faces of at most 1026^2 R16), sky tables and job buffers, as their owners size them; rounded up to a MiB.
-  const FramePlan plan = planFrame(scene);
-  std::uint64_t bytes = kSmallBuffers + (plan.air ? SkyTables::bytes(scene) : 0);
-  if (plan.clouds) {
-    const RootFrame root = RootFrame::enclosing(scene.planet.radius_m, 20'000);
-    const auto source = makeDensitySource(scene, root);
-    if (source) bytes += BrickPasses::bytes(**source) + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
+Result<std::uint64_t> leastBudget(gpu::Context& context, const Scene& scene) {
+  Scene plenty = scene;
+  plenty.quality.budget_bytes = std::uint64_t{1} << 40;
+  plenty.clouds.reset();
+  auto renderer = Renderer::create(context, plenty, {.width = 16, .height = 16});
+  if (!renderer) return renderer.error();
+  std::uint64_t bytes = (*renderer)->memory().used() + kSmallBuffers;
+  if (planFrame(scene).clouds) {
+    auto source = makeDensitySource(scene, RootFrame::enclosing(scene.planet.radius_m, kCloudShell_m));
+    if (!source) return source.error();
+    bytes += BrickPasses::bytes(**source) + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
   }
   return ((bytes + (1 << 20) - 1) >> 20) << 20;
 }

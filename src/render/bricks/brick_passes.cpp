@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 
+#include "welkin/shared/bindings.glsl.h"
+
 namespace welkin {
 namespace {
 
@@ -39,7 +41,7 @@ Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const Densi
     passes.cover_ = std::move(*texture);
   }
   gpu::Defines defines = tree.defines();
-  defines.emplace_back("SOURCE_SHADER", "lib/" + source.shader());
+  defines.emplace_back("SOURCE_SHADER", source.shader());
   auto generate = gpu::Program::compute("pass/bricks/generate.comp", defines);
   if (!generate) return generate.error();
   auto light = gpu::Program::compute("pass/light/light.comp", tree.defines());

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "welkin/shared/bindings.glsl.h"
+
 namespace welkin {
 namespace {
 

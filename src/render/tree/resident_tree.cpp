@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/shared/bindings.glsl.h"
+
 namespace welkin {
 
 using shared::kMapEdge;

@@ -78,7 +78,7 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-// The least budget that works for this scene, in bytes, at this picture size (docs/memory.md says how it is made up).
-std::uint64_t leastBudget(const Scene& scene);
+// The least budget that works for this scene, in bytes: made by building everything but the tree (docs/memory.md).
+Result<std::uint64_t> leastBudget(gpu::Context& context, const Scene& scene);
 
 }  // namespace welkin

@@ -2,16 +2,8 @@
 // How sun and sky light a point inside a cloud, from the sun's optical depth alone. Named, so that a path tracer can be held
 // against each. All are per unit of sun irradiance or of sky irradiance, in 1/sr: multiplied by extinction and path length they give
 // radiance (droplets do not absorb visible light: albedo 1).
-#include "welkin/shared/prelude.glsl.h"
+#include "welkin/shared/phase.glsl.h"
 WK_BEGIN
-
-WK_CONST float kPi = F(3.14159265358979);
-
-// Henyey & Greenstein 1941; integrates to 1 over the sphere.
-WK_FN float henyeyGreenstein(float cosTheta, float g) {
-  float d = F(1.0) + g * g - F(2.0) * g * cosTheta;
-  return (F(1.0) - g * g) / (F(4.0) * kPi * d * sqrt(d));
-}
 
 // Droplets: a strong forward lobe (silver lining) and a weak backward one. Asymmetry 0.87 * 0.85 - 0.13 * 0.3 = 0.70 after the
 // forward peak within a few degrees is counted as not scattered.
@@ -19,7 +11,7 @@ WK_CONST float kForwardG = F(0.85);
 WK_CONST float kBackwardG = F(-0.3);
 WK_CONST float kForwardShare = F(0.87);
 WK_FN float cloudPhase(float cosTheta, float sharpness) {
-  return mix(henyeyGreenstein(cosTheta, kBackwardG * sharpness), henyeyGreenstein(cosTheta, kForwardG * sharpness), kForwardShare);
+  return mix(phaseHenyeyGreenstein(cosTheta, kBackwardG * sharpness), phaseHenyeyGreenstein(cosTheta, kForwardG * sharpness), kForwardShare);
 }
 
 // Phase values of three scattering octaves (Wrenninge et al. 2013, "Oz: the great and volumetric"): each is dimmer, broader and

@@ -19,17 +19,17 @@ WK_FN float waterFresnel(float cosine) {
 }
 
 // Reflected radiance per unit of the sun's irradiance (on a plane facing it). Cox and Munk 1954: slopes are Gaussian with mean square
-// 0.003 + 0.00512 wind [m/s]; here 6 m/s. normal, toSun, toCamera: unit. The floor on the view cosine stands for wave
-// crests that hide each other: at grazing angles the mean visible slope keeps it above about half the slopes' deviation.
+// 0.003 + 0.00512 wind [m/s]; here 6 m/s. normal, toSun, toCamera: unit. Waves that hide each other from the sun and from the viewer:
+// Smith's masking for Gaussian slopes, x / (x + 0.6 s) for slope deviation s an axis, which is within 10 % of it and keeps the
+// quotient finite at grazing angles.
 WK_FN float waterGlint(vec3 normal, vec3 toSun, vec3 toCamera) {
-  const float kSlope2 = F(0.0337);
-  float nl = dot(normal, toSun), nv = dot(normal, toCamera);
-  if (nl <= F(0.0)) return F(0.0);
+  const float kSlope2 = F(0.0337), kHide = F(0.078);
+  float nl = max(dot(normal, toSun), F(0.0)), nv = max(dot(normal, toCamera), F(0.0));
   vec3 h = normalize(toSun + toCamera);
-  float nh = max(dot(normal, h), F(0.05));
+  float nh = max(dot(normal, h), F(0.05));  // slopes over 20 have no weight left: exp(-400 / kSlope2)
   float nh2 = nh * nh;
   float slopes = exp((nh2 - F(1.0)) / (nh2 * kSlope2)) / (kPi * kSlope2 * nh2 * nh2);
-  return waterFresnel(dot(h, toCamera)) * slopes / (F(4.0) * max(nv, F(0.09)));
+  return waterFresnel(dot(h, toCamera)) * slopes * nl / (F(4.0) * (nl + kHide) * (nv + kHide));
 }
 
 // Radiance towards the camera. sunIrradiance: of a plane facing the sun, with air, cloud shadow and planet shadow in it;

@@ -3,9 +3,9 @@
 #include "welkin/shared/prelude.glsl.h"
 WK_BEGIN
 
-// Radiance is multiplied by this and 2^EV. Derived: at EV 0 a white Lambert surface under the sun (radiance 1/pi for irradiance 1)
-// lands at 0.8 of display white's curve input, so that sunlit cloud is bright but not clipped.
-WK_CONST float kBaseExposure = F(4.0);
+// Radiance is multiplied by this and 2^EV. Chosen so that at EV 0 a thick sunlit cloud (radiance near 0.8/pi for a sun of irradiance 1)
+// shows as 0.91 of white and the clear blue sky near half.
+WK_CONST float kBaseExposure = F(8.0);
 
 // Rational fit of the ACES reference rendering and output transforms by S. Hill: matrix into the fit's space, curve, matrix back.
 WK_FN float acesCurve(float x) {

@@ -1,0 +1,162 @@
+#pragma once
+// Density of layered procedural clouds at a fixed-point position, band-limited to the voxel of a level.
+//
+// A layer is cloud where noise exceeds a threshold that its cover sets. What a level cannot show is replaced by its expectation:
+// octaves finer than the voxel by the mean of the threshold's ramp over them, the height profile by its mean over the voxel. So
+// optical depth survives on every level. Integers, + - * min max, one division per layer whose top follows the cover, one
+// division and one root for the altitude; no exp, sin or pow.
+#include "welkin/shared/cloud_source.glsl.h"
+#include "welkin/shared/cover.glsl.h"
+#include "welkin/shared/noise.glsl.h"
+WK_BEGIN
+
+// Altitude of p in metres, negative below the ground: (|x|^2 - R^2) / (|x| + R), the difference in double because it cancels.
+// Error below 0.03 m within 100 km of an Earth's ground.
+WK_FN float cloudAltitude(WK_SOURCE_PARAM uvec3 p) {
+  double half0 = double(F(2147483648.0));
+  double x = double(p.x) - half0, y = double(p.y) - half0, z = double(p.z) - half0;
+  double r2 = x * x + y * y + z * z;
+  float excess = float(r2 - doubleFromWords(WK_HEADER.radius2Low, WK_HEADER.radius2High));
+  return excess / (sqrt(float(r2)) + WK_HEADER.radius_steps) * WK_HEADER.step_m;
+}
+
+// Weather type 0 (stratiform) to 1 (convective): two octaves of continental noise, and the tropics lean to convection.
+WK_FN float typeFromNoise(float n0, float n1, float sinLatitude2) {
+  return clamp(F(0.58) + F(0.62) * n0 + F(0.4) * n1 - F(0.3) * sinLatitude2, F(0.0), F(1.0));
+}
+WK_FN float cloudType(WK_SOURCE_PARAM uvec3 p) {
+  uint shift = WK_HEADER.typeShift, seed = WK_HEADER.seed;
+  float x = float(int(p.x ^ 0x80000000u)), y = float(int(p.y ^ 0x80000000u)), z = float(int(p.z ^ 0x80000000u));
+  float z2 = z * z;
+  float r2 = max(x * x + y * y + z2, F(1.0));
+  return typeFromNoise(noise3(p, shift, shift, seed), noise3(p, shift - 1u, shift - 1u, octaveSeed(seed, 1u)), z2 / r2);
+}
+
+// Integral of clamp(x, 0, 1) from minus infinity to x.
+WK_FN float rampIntegral(float x) {
+  float c = clamp(x, F(0.0), F(1.0));
+  return c * (max(x, F(0.0)) - F(0.5) * c);
+}
+
+// Integral of the trapezoid profile up to z metres above the base.
+WK_FN float profileIntegral(WK_SOURCE_PARAM uint layer, float z) {
+  float top = WK_LAYER(layer).thickness_m - WK_LAYER(layer).topFade_m;
+  return WK_LAYER(layer).baseFade_m * rampIntegral(z * WK_LAYER(layer).invBaseFade) -
+         WK_LAYER(layer).topFade_m * rampIntegral((z - top) * WK_LAYER(layer).invTopFade);
+}
+
+WK_FN float profileAt(WK_SOURCE_PARAM uint layer, float z) {
+  float up = clamp(z * WK_LAYER(layer).invBaseFade, F(0.0), F(1.0));
+  float down = clamp((WK_LAYER(layer).thickness_m - z) * WK_LAYER(layer).invTopFade, F(0.0), F(1.0));
+  return min(up, down);
+}
+
+// E[max(x + u, 0)] for u with the triangle density on [-a, a]; inv6a2 = 1 / (6 a^2), or 0 for a = 0.
+WK_FN float expectedPositive(float x, float a, float inv6a2) {
+  float m = max(a - abs(x), F(0.0));
+  return max(x, F(0.0)) + m * m * m * inv6a2;
+}
+
+WK_FN float typeWeight(WK_SOURCE_PARAM uint layer, float type) {
+  if (WK_LAYER(layer).typed == 0u) return F(1.0);
+  float rise = clamp((type - WK_LAYER(layer).typeLow) * WK_LAYER(layer).typeInvRiseLow, F(0.0), F(1.0));
+  float fall = clamp((WK_LAYER(layer).typeHigh - type) * WK_LAYER(layer).typeInvRiseHigh, F(0.0), F(1.0));
+  return min(rise, fall);
+}
+
+WK_FN float layerCover(WK_SOURCE_PARAM uint layer, float cover, float type) {
+  return clamp(cover * WK_LAYER(layer).coverGain + WK_LAYER(layer).coverBias, F(0.0), F(1.0)) * typeWeight(WK_SOURCE_ARG layer, type);
+}
+
+WK_FN float thresholdOf(WK_SOURCE_PARAM uint layer, float cover) {
+  float s = cover * float(kThresholdSteps);
+  int i = min(int(s), int(kThresholdSteps) - 1);
+  float low = WK_LAYER(layer).threshold[i];
+  return low + (s - float(i)) * (WK_LAYER(layer).threshold[i + 1] - low);
+}
+
+// The last thirty-second of cover also thins the cloud: where there is no cover there is exactly nothing, without a step.
+WK_FN float thinness(float cover) { return min(cover * F(32.0), F(1.0)); }
+
+// How much the layer's height is stretched: its top falls to the base where cover is thin.
+WK_FN float heightScale(WK_SOURCE_PARAM uint layer, float cover) {
+  return F(1.0) / (F(1.0) - WK_LAYER(layer).topFollowsCover * (F(1.0) - cover));
+}
+
+WK_FN uint warpSteps(float n, float steps) { return uint(int(floor(n * steps))); }
+
+// The position at which noise is taken: shifted by slow noise, so that streaks bend.
+WK_FN uvec3 warpedPosition(WK_SOURCE_PARAM uint layer, uvec3 p) {
+  uint shift = WK_LAYER(layer).warpShift, seed = WK_LAYER(layer).seed;
+  float steps = WK_LAYER(layer).warp_steps;
+  float a = noise3(p, shift, shift, octaveSeed(seed, 101u)), b = noise3(p, shift, shift, octaveSeed(seed, 102u));
+  return uvec3(p.x + warpSteps(b, steps), p.y - warpSteps(b, steps), p.z + warpSteps(a, steps));
+}
+
+// Extinction in 1/m of one layer. `altitude_m` is that of p; cover and type are 0..1.
+WK_FN float layerDensity(WK_SOURCE_PARAM uint layer, uvec3 p, uint level, float altitude_m, float cover, float type) {
+  // Cloud is mirrored at the ground: samples below it carry what the average of the samples above would lose.
+  float h = abs(altitude_m);
+  float filter0 = WK_LAYER(layer).filter_m[level], reach = F(0.5) * filter0;
+  float base = WK_LAYER(layer).base_m, thickness = WK_LAYER(layer).thickness_m;
+  if (h + reach <= base || h - reach >= base + thickness) return F(0.0);
+  float c = layerCover(WK_SOURCE_ARG layer, cover, type);
+  if (c <= F(0.0)) return F(0.0);
+  float scale = F(1.0);
+  if (WK_LAYER(layer).topFollowsCover > F(0.0)) scale = heightScale(WK_SOURCE_ARG layer, c);
+  float z = (h - base) * scale;
+  reach *= scale;
+  float profile, middle;
+  if (reach <= F(0.0)) {
+    profile = profileAt(WK_SOURCE_ARG layer, z);
+    middle = z;
+  } else {
+    float mirrored = F(-2.0) * base * scale - z;
+    profile = (profileIntegral(WK_SOURCE_ARG layer, z + reach) - profileIntegral(WK_SOURCE_ARG layer, z - reach) +
+               profileIntegral(WK_SOURCE_ARG layer, mirrored + reach) - profileIntegral(WK_SOURCE_ARG layer, mirrored - reach)) /
+              (F(2.0) * reach);
+    middle = F(0.5) * (clamp(z - reach, F(0.0), thickness) + clamp(z + reach, F(0.0), thickness));
+  }
+  profile = min(profile, F(1.0));
+  if (profile <= F(0.0)) return F(0.0);
+
+  float spread = WK_LAYER(layer).spread[level];
+  float invSoftness = WK_LAYER(layer).invSoftness;
+  float threshold = thresholdOf(WK_SOURCE_ARG layer, c) + WK_LAYER(layer).taper * clamp(middle * WK_LAYER(layer).invThickness, F(0.0), F(1.0));
+  uint octaves = WK_LAYER(layer).octaves[level], shift = WK_LAYER(layer).shift, streak = WK_LAYER(layer).streak;
+  float billow = WK_LAYER(layer).billow, gain = WK_LAYER(layer).gain, amplitude = WK_LAYER(layer).amplitude;
+  float restHigh = WK_LAYER(layer).restHigh;
+  float n = F(0.0), rest = WK_LAYER(layer).shown[level];
+  uvec3 q = p;
+  if (octaves > 0u && WK_LAYER(layer).warp_steps > F(0.0)) q = warpedPosition(WK_SOURCE_ARG layer, p);
+  for (uint k = 0u; k < octaves; ++k) {
+    n += amplitude * billowNoise(noise3(q, shift - k, shift - k - streak, octaveSeed(WK_LAYER(layer).seed, k)), billow);
+    rest -= amplitude;
+    amplitude *= gain;
+    float x0 = (n - threshold) * invSoftness, room = rest * restHigh * invSoftness + spread;
+    // no later octave can bring it back, up or down
+    if (x0 + room <= F(0.0)) return F(0.0);
+    if (x0 - room >= F(1.0)) break;
+  }
+  float x = (n - threshold) * invSoftness;
+  float inv = WK_LAYER(layer).invSpread2[level];
+  float ramp = clamp(expectedPositive(x, spread, inv) - expectedPositive(x - F(1.0), spread, inv), F(0.0), F(1.0));
+  return WK_LAYER(layer).extinction_per_m * profile * ramp * thinness(c);
+}
+
+// Extinction in 1/m of all layers: the densest one counts, so a tower that pierces a deck is no denser for it.
+WK_FN float layersDensity(WK_SOURCE_PARAM uvec3 p, uint level) {
+  float altitude_m = cloudAltitude(WK_SOURCE_ARG p);
+  float h = abs(altitude_m), reach = F(0.5) * WK_HEADER.footprint_m[level];
+  if (h + reach <= WK_HEADER.lowest_m || h - reach >= WK_HEADER.highest_m) return F(0.0);
+  float cover = F(1.0);
+  if (WK_HEADER.coverMips > 0u) cover = coverAt(WK_SOURCE_ARG coverPlace(p), WK_HEADER.coverMip[level]);
+  if (cover <= F(0.0)) return F(0.0);
+  float type = cloudType(WK_SOURCE_ARG p);
+  float density = F(0.0);
+  for (uint layer = 0u; layer < WK_HEADER.layerCount; ++layer)
+    density = max(density, layerDensity(WK_SOURCE_ARG layer, p, level, altitude_m, cover, type));
+  return density;
+}
+
+WK_END

@@ -1,0 +1,35 @@
+#pragma once
+// Walking a straight ray through the octree: fixed point at its start plus a float distance, cell by cell.
+#include "welkin/shared/camera.glsl.h"
+#include "welkin/shared/octree.glsl.h"
+WK_BEGIN
+
+struct Walk {
+  uvec3 origin;       // start of the ray
+  vec3 dirSteps;      // fixed-point steps a metre
+  vec3 metrePerStep;  // reciprocal; huge where a component is 0
+};
+
+// `startSteps`: the start in fixed-point steps, fp64, clamped to the root. `dir` unit, planet frame.
+WK_FN Walk startWalk(dvec3 startSteps, vec3 dir, float stepsPerMetre) {
+  vec3 d = dir * stepsPerMetre;
+  dvec3 s = dvec3(clamp(startSteps.x, WK_D(0.0), WK_D(4294967295.0)), clamp(startSteps.y, WK_D(0.0), WK_D(4294967295.0)),
+                  clamp(startSteps.z, WK_D(0.0), WK_D(4294967295.0)));
+  return WK_NEW(Walk, uvec3(uint(s.x), uint(s.y), uint(s.z)), d,
+                vec3(d.x == F(0.0) ? F(1e30) : F(1.0) / d.x, d.y == F(0.0) ? F(1e30) : F(1.0) / d.y, d.z == F(0.0) ? F(1e30) : F(1.0) / d.z));
+}
+
+// Position at distance t, modulo the root. In half steps, because the way across the root is 2^32 steps and more than an int holds.
+WK_FN uvec3 walkTo(Walk walk, float t) {
+  vec3 h = walk.dirSteps * (F(0.5) * t);
+  return walk.origin + uvec3(uint(int(h.x)) << 1u, uint(int(h.y)) << 1u, uint(int(h.z)) << 1u);
+}
+
+// An axis of walkTo is off by at most three steps (truncation to half steps, start) and 2^-22 t (roundings of direction, product and t).
+WK_FN float walkError(float t, float step_m) { return F(3.0) * step_m + F(2.5e-7) * t; }
+
+// How far behind a cell's exit the next look-up is made: twice the error, so that a ray that meets the face head-on is past it. One that
+// grazes it may need another look-up in the same cell; it never leaves a cell out that is thicker than the error.
+WK_FN float pastExit(float t, float step_m) { return F(2.0) * walkError(t, step_m); }
+
+WK_END

@@ -1,0 +1,88 @@
+// The walk of shared/walk.glsl.h against brute force: random trees, a million rays, grazing and axis-parallel ones included.
+#include "welkin/shared/walk.glsl.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace welkin {
+namespace {
+
+using namespace shared;
+
+// A random tree: which nodes are split is a hash of their address, so no storage is needed.
+struct RandomTree {
+  std::uint32_t seed, depth;
+  bool split(glm::uvec3 corner, std::uint32_t level) const {
+    std::uint64_t h = seed * 0x9E3779B97F4A7C15ull ^ (std::uint64_t{corner.x} << 32 | corner.y) * 0xBF58476D1CE4E5B9ull ^
+                      (std::uint64_t{corner.z} << 8 | level) * 0x94D049BB133111EBull;
+    h ^= h >> 29;
+    h *= 0xD6E8FEB86659FD93ull;
+    return level < depth && (level < 6 || ((h >> 40) % 100) < 60);
+  }
+  std::uint32_t leafLevel(glm::uvec3 p) const {
+    std::uint32_t level = 0;
+    while (split(nodeCorner(p, level), level)) ++level;
+    return level;
+  }
+};
+
+double outside(double x, double low, double high) { return std::max({low - x, x - high, 0.0}); }
+
+TEST(Walk, IntervalsAbutAndNothingIsSkipped) {
+  const std::uint32_t seed = 20260101;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::normal_distribution<double> normal;
+  constexpr int kTrees = 50, kRays = 20'000;  // one million rays
+  constexpr double kHalf_m = 6.4e6, kStep_m = kHalf_m * 0x1p-31;
+  std::uint64_t cells = 0;
+  for (int t = 0; t < kTrees; ++t) {
+    const RandomTree tree{std::uint32_t(random()), std::uint32_t(6 + random() % 14)};
+    for (int r = 0; r < kRays; ++r) {
+      glm::dvec3 start{unit(random), unit(random), unit(random)};
+      start *= 4294967295.0;
+      glm::dvec3 d{normal(random), normal(random), normal(random)};
+      if (r % 8 == 0) d[r / 8 % 3] = 0;                                        // in a plane of the grid
+      if (r % 16 == 1) d[(r / 16 + 1) % 3] = d[(r / 16 + 2) % 3] = 0;           // along an axis
+      if (r % 8 == 2) d[r / 8 % 3] *= 1e-6;                                    // grazing faces
+      if (r % 32 == 3) start[r / 32 % 3] = std::floor(unit(random) * 64) * 0x1p26;  // on a face of the grid
+      if (glm::length(d) == 0) d.x = 1;
+      const glm::vec3 dir(glm::normalize(d));
+      const Walk walk = startWalk(start, dir, float(1 / kStep_m));
+      const float length = float(std::pow(10.0, 2 + 4 * unit(random)));
+      float at = 0;
+      for (int n = 0; at < length; ++n) {
+        ASSERT_LT(n, 200'000) << "the walk does not advance; seed " << seed;
+        const glm::uvec3 p = walkTo(walk, at);
+        const std::uint32_t level = tree.leafLevel(p);
+        const float next = std::min(at + nodeExit(p, level, walk.dirSteps, walk.metrePerStep) + pastExit(at, float(kStep_m)), length);
+        ASSERT_GT(next, at) << "an empty interval; seed " << seed;
+        // Every point of the interval lies in the node, to the error that the walk states. Outside the root: positions wrap, stop.
+        const glm::uvec3 low = nodeCorner(p, level);
+        const double size = std::ldexp(1.0, 32 - int(level));
+        bool left = false;
+        for (const double share : {0.0, 0.37, 1.0}) {
+          const double s = double(at) + share * (double(next) - double(at));
+          const glm::dvec3 x = start + glm::dvec3(dir) * (s / kStep_m);
+          for (int a = 0; a < 3; ++a) {
+            // the walk's own error at both ends, and the overshoot past the exit
+            const double slack = (2 * walkError(next, float(kStep_m)) + pastExit(next, float(kStep_m))) / kStep_m;
+            left = left || x[a] < slack || x[a] >= 4294967296.0 - slack;  // positions wrap at the root's faces
+            if (left) continue;
+            ASSERT_LE(outside(x[a], low[a], low[a] + size), slack) << "seed " << seed << " tree " << t << " ray " << r << " axis " << a << " level " << level;
+          }
+        }
+        ++cells;
+        if (left) break;
+        at = next;
+      }
+    }
+  }
+  EXPECT_GT(cells, 3u * kTrees * kRays);  // the rays did meet trees
+}
+
+}  // namespace
+}  // namespace welkin
