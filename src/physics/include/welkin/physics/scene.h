@@ -60,6 +60,8 @@ struct CloudLayer {
   double softness = 0.3;                      // width of the cover threshold, in noise units
   double taper = 0.3;                         // how much the threshold rises from base to top: rounds the tops
   double topFollowsCover = 0;                 // 0: top fixed; 1: top falls to the base where cover is thin
+  int streak = 0;                             // noise is squeezed 2^streak times along the planet's axis: wisps along parallels
+  double warp_m = 0;                          // noise is taken up to so far away, following slow noise: bends the wisps
 };
 
 struct LayersSource {  // type "layers" (procedural weather) or "cover-map" (a picture says where)
