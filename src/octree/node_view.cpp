@@ -19,6 +19,9 @@ NodeView::NodeView(const RootFrame& root, const SelectionView& view) : root_(roo
   zenith_ = cameraRadius_m_ > 0 ? view.position_m / cameraRadius_m_ : glm::dvec3(0, 0, 1);
   horizonAngle_rad_ = std::acos(std::min(1.0, root.planetRadius_m / std::max(cameraRadius_m_, 1.0)));
   cosHorizon_ = std::cos(horizonAngle_rad_);
+  // Along the ray that touches the ground: from the camera to there, and on to the top of the shell.
+  const double R = root.planetRadius_m, top = R + view.cloudTop_m;
+  farthestCloud_m_ = std::sqrt(std::max(0.0, (cameraRadius_m_ - R) * (cameraRadius_m_ + R))) + std::sqrt((top - R) * (top + R));
   slackAngle_rad_ = view.slack_m / std::max(cameraRadius_m_, 1.0);
   const double tanX = view.tanHalfFovX * kWider + kWiderTan, tanY = view.tanHalfFovY * kWider + kWiderTan;
   planeX_ = glm::dvec3(tanX, 1, 0) / std::sqrt(1 + tanX * tanX);
@@ -62,7 +65,7 @@ NodeView::Seen NodeView::look(const NodeAddress& node, const Seen& above) const 
 double NodeView::farDistance_m(const NodeAddress& node) const {
   const double half_m = root_.nodeSize_m(node.level) / 2;
   const glm::dvec3 offset = root_.toPlanet(node.corner) + half_m - view_.position_m;
-  return glm::length(glm::abs(offset) + half_m) + view_.slack_m;
+  return std::min(glm::length(glm::abs(offset) + half_m), farthestCloud_m_) + view_.slack_m;
 }
 
 }  // namespace welkin

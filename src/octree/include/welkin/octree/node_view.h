@@ -29,7 +29,7 @@ class NodeView {
   NodeView(const RootFrame& root, const SelectionView& view);
   // `above`: what is known of the parent. Outside and hidden hold for all of a node's children.
   Seen look(const NodeAddress& node, const Seen& above) const;
-  // Greatest distance to a point of the node.
+  // Greatest distance at which a ray could meet cloud in the node: its far corner, or where the planet hides the cloud shell.
   double farDistance_m(const NodeAddress& node) const;
 
  private:
@@ -42,6 +42,7 @@ class NodeView {
   glm::dvec3 zenith_;
   double horizonAngle_rad_, cosHorizon_;
   double slackAngle_rad_;
+  double farthestCloud_m_;
   glm::dvec3 planeX_, planeY_;  // (distance along forward, along right or up, 0) weights of the picture's side planes
 };
 
