@@ -69,6 +69,8 @@ struct Renderer::Impl {
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
   void apply(FrameEdits&& edits, glm::dvec3 camera_planet, bool draw, FrameStats& stats);
   void updateTreeBlock();
+  void beginPicture(const ViewFrame& frame);                  // camera, counters, sky
+  void endPicture(const ViewFrame& frame, const View& view);  // composite
   FrameStats report(FrameStats stats) const;
 };
 
@@ -164,6 +166,24 @@ void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, bool dr
   }
 }
 
+void Renderer::Impl::beginPicture(const ViewFrame& frame) {
+  camera.upload(0, std::as_bytes(std::span(&frame.block, 1)));
+  camera.bind(GL_UNIFORM_BUFFER, WK_CAMERA_BINDING);
+  counters.clear();
+  counters.bind(GL_SHADER_STORAGE_BUFFER, WK_COUNTERS_BINDING);
+  if (!sky) return;
+  timer.begin("sky");
+  sky->updateView(frame.block, scene.sun ? scene.sun->direction_planet : glm::dvec3(0, 0, 1));
+  sky->bind();
+  timer.end();
+}
+
+void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view) {
+  timer.begin("composite");
+  composite->run(frame.block, view.exposure_ev.value_or(scene.exposure_ev));
+  timer.end();
+}
+
 FrameStats Renderer::Impl::report(FrameStats stats) const {
   stats.residency = last.stats;
   stats.sampleDetail = last.sampleDetail;
@@ -203,17 +223,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode) {
       haveEdits = true;
     }
   }
-  r.camera.upload(0, std::as_bytes(std::span(&frame.block, 1)));
-  r.camera.bind(GL_UNIFORM_BUFFER, WK_CAMERA_BINDING);
-  r.counters.clear();
-  r.counters.bind(GL_SHADER_STORAGE_BUFFER, WK_COUNTERS_BINDING);
-  const glm::dvec3 sun = r.scene.sun ? r.scene.sun->direction_planet : glm::dvec3(0, 0, 1);
-  if (r.sky) {
-    r.timer.begin("sky");
-    r.sky->updateView(frame.block, sun);
-    r.sky->bind();
-    r.timer.end();
-  }
+  r.beginPicture(frame);
   if (r.plan.clouds) {
     std::vector<BrickJob> generate;
     if (haveEdits) {
@@ -230,17 +240,13 @@ FrameStats Renderer::frame(const View& view, FrameMode mode) {
     r.tree->bind();
     r.clouds->run(frame, mode, r.scene, r.timer);
     stats.bricksGenerated = static_cast<std::uint32_t>(generate.size());
-    r.timer.begin("composite");
-    r.composite->run(frame.block, view.exposure_ev.value_or(r.scene.exposure_ev));
-    r.timer.end();
+    r.endPicture(frame, view);
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
     r.timer.end();
     if (!r.asked.empty() || haveEdits || r.step == 0 || r.settings.waitForEdits) r.ask(frame, r.settings.bricksPerFrame, false);
   } else {
-    r.timer.begin("composite");
-    r.composite->run(frame.block, view.exposure_ev.value_or(r.scene.exposure_ev));
-    r.timer.end();
+    r.endPicture(frame, view);
   }
   shared::Counters counted{};
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -279,6 +285,20 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   stats.wall_ms = gpu::wall_ms() - wall0;
   stats.cpu_ms = gpu::processCpu_ms() - cpu0;
   return r.report(stats);
+}
+
+void Renderer::preview(const View& view) {
+  Impl& r = *impl_;
+  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
+  const bool timed = std::exchange(r.timer.enabled, false);
+  r.beginPicture(frame);
+  if (r.plan.clouds) {
+    r.tree->updateMaps(view.position_m, false);
+    r.tree->bind();
+    r.clouds->preview(r.scene);
+  }
+  r.endPicture(frame, view);
+  r.timer.enabled = timed;
 }
 
 Image8 Renderer::image() const {

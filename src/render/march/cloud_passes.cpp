@@ -63,25 +63,39 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
   return passes;
 }
 
-void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset) const {
+void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int target) const {
   program.set("u_size", glm::ivec2(width_, height_));
   program.set("u_offset", offset);
-  light_[current_].bindImage(0, GL_WRITE_ONLY);
-  aux_[current_].bindImage(1, GL_WRITE_ONLY);
+  light_[target].bindImage(0, GL_WRITE_ONLY);
+  aux_[target].bindImage(1, GL_WRITE_ONLY);
 }
 
-void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
+void CloudPasses::setLight(const Scene& scene) const {
   const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
   const float albedo = float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3;
-  for (gpu::Program* p : {&marchAll_, &marchSixteenth_, &marchList_}) {
+  for (const gpu::Program* p : {&marchAll_, &marchSixteenth_, &marchList_}) {
     p->set("u_sunIrradiance", irradiance);
     p->set("u_groundAlbedo", albedo);
   }
+}
+
+void CloudPasses::preview(const Scene& scene) {
+  setLight(scene);
+  const int spare = 1 - current_;  // the next run() writes every pixel of it
+  march(marchAll_, {0, 0}, spare);
+  marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  light_[spare].bind(WK_CLOUD_LIGHT_UNIT);
+  aux_[spare].bind(WK_CLOUD_AUX_UNIT);
+}
+
+void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
+  setLight(scene);
   const int old = current_;
   current_ = 1 - current_;
   if (mode == FrameMode::Full || !haveHistory_) {
     timer.begin("march");
-    march(marchAll_, {0, 0});
+    march(marchAll_, {0, 0}, current_);
     marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
     timer.end();
   } else {
@@ -105,9 +119,9 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     timer.end();
     timer.begin("march");
-    march(marchSixteenth_, offset);
+    march(marchSixteenth_, offset, current_);
     marchSixteenth_.dispatch(groups(width_, 32), groups(height_, 32));
-    march(marchList_, offset);
+    march(marchList_, offset, current_);
     marchList_.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pixels_.id());
     glDispatchComputeIndirect(0);

@@ -20,10 +20,13 @@ class CloudPasses {
   static Result<CloudPasses> create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, bool air);
   // Expects tree, camera, counters and sky bound. Leaves the new clouds bound at WK_CLOUD_LIGHT_UNIT and WK_CLOUD_AUX_UNIT.
   void run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer);
+  // Marches every pixel into the spare target, which is bound as the new clouds; history stays as it is.
+  void preview(const Scene& scene);
   void forget() { haveHistory_ = false; }  // the next frame marches every pixel
 
  private:
-  void march(const gpu::Program& program, glm::ivec2 offset) const;
+  void march(const gpu::Program& program, glm::ivec2 offset, int target) const;
+  void setLight(const Scene& scene) const;
   int width_ = 0, height_ = 0, current_ = 0;
   bool haveHistory_ = false;
   std::uint32_t phase_ = 0;  // which of the 16 pixels is next

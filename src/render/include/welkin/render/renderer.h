@@ -65,6 +65,9 @@ class Renderer {
   FrameStats frame(const View& view, FrameMode mode = FrameMode::Reprojected);
   // Streams (draws nothing) until nothing is pending for this view, then returns. `progress` gets 0..1 and may return false to stop.
   FrameStats settle(const View& view, const std::function<bool(double)>& progress = {});
+  // Draws this view from the tree as it is now, every pixel marched; no edit is applied, history and frame count stay. For
+  // comparing: image() and radiance() then return this picture.
+  void preview(const View& view);
   Image8 image() const;
   ImageF radiance() const;
   const FramePlan& plan() const;
