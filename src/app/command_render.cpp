@@ -1,0 +1,99 @@
+#include <chrono>
+
+#include "commands.h"
+#include "welkin/app/checksum.h"
+#include "welkin/app/draw.h"
+#include "welkin/app/stop.h"
+#include "welkin/core/files.h"
+#include "welkin/core/progress.h"
+#include "welkin/core/units.h"
+
+namespace welkin::app {
+namespace {
+
+struct RenderOptions {
+  CommonOptions common;
+  std::filesystem::path input, output;
+  std::string view;
+};
+
+Result<void> writeRendered(const RenderOptions& o, const Renderer& renderer, const PictureState& state) {
+  const auto folder = o.output.has_parent_path() ? o.output.parent_path() : std::filesystem::path(".");
+  const Texts texts = textsFromState(state, folder);
+  return kindOfName(o.output) == PictureKind::Exr ? writeExr(o.output, renderer.radiance(), texts)
+                                                  : writePng(o.output, renderer.image(), texts);
+}
+
+Result<void> runRender(const RenderOptions& o) {
+  beginCommand(o.common);
+  const auto begin = std::chrono::steady_clock::now();
+  auto start = loadStart(o.input, o.view);
+  if (!start) return start.error();
+  apply(o.common, start->scene);
+  const Size size = o.common.size.value_or(start->size);
+  if (auto writable = checkWritableFile(o.output); !writable) return writable;
+  if (!o.common.json.empty()) {
+    if (auto writable = checkWritableFile(o.common.json); !writable) return writable;
+  }
+  listenForStop();
+
+  RenderSettings settings;
+  settings.width = size.width;
+  settings.height = size.height;
+  auto stage = openStage(start->scene, settings, o.common.gpu);
+  if (!stage) return stage.error();
+  Progress progress("render", o.common.quiet);
+  auto stats = drawConverged(*stage->renderer, start->view, [&](double fraction) {
+    progress.update(0.95 * fraction);  // the rest is the picture itself
+    return !stopRequested();
+  });
+  if (!stats) return Error{fmt::format("{}: {}", o.output.string(), stats.error().message)};
+  progress.update(1);
+  progress.finish();
+
+  const auto data = dataChecksums(start->scene);
+  if (auto written = writeRendered(o, *stage->renderer, stateOf(*stage->renderer, start->view, size, start->time_s, true, data)); !written)
+    return written;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!o.common.json.empty()) {
+    measure::TimingReport report;
+    report.name = "render";
+    report.context = describeRun(start->scene, size);
+    report.context.bricksPerFrame = settings.bricksPerFrame;
+    describeDevice(*stage->context, report.context);
+    report.frames.push_back(
+        {0, start->time_s, glm::length(start->view.position_m) - start->scene.planet.radius_m, *stats, o.output.filename().string()});
+    report.leftOut = stage->renderer->plan().leftOut;
+    report.passOrder = stage->renderer->plan().passes;
+    report.memoryByName = stage->renderer->memory().byName();
+    report.notes = stage->renderer->notes();
+    report.glMessages = stage->context->debugMessages();
+    report.glFirstMessages = stage->context->firstMessages();
+    report.total_s = seconds;
+    if (auto written = writeFile(o.common.json, report.json() + "\n"); !written) return written;
+  }
+  fmt::print("{}: {}x{}, {:.1f} s, {} bricks, {} of {}\n", o.output.string(), size.width, size.height, seconds, stats->residency.bricks,
+             bytesText(stats->bytesUsed), bytesText(stats->bytesBudget));
+  return {};
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, Action& action) {
+  auto o = std::make_shared<RenderOptions>();
+  auto* command = app.add_subcommand("render", "draw one converged picture, then exit");
+  command->footer(
+      "Examples:\n  welkin render scenes/earth.json --view orbit --size 1280x720 -o orbit.png\n"
+      "  welkin render orbit.png -o again.png      the same picture from the state that it carries");
+  command->add_option("SCENE", o->input, "a scene (JSON), or a picture (PNG, EXR) of this program")->required();
+  command->add_option("--view", o->view, "which view of the scene");
+  command->add_option("-o,--output", o->output, "OUT.png (tone-mapped) or OUT.exr (linear, half)")
+      ->required()
+      ->check(
+          [](const std::string& text) { return kindOfName(text) == PictureKind::None ? "expected a name that ends in .png or .exr" : ""; });
+  addQualityOptions(*command, o->common);
+  addOutputOptions(*command, o->common, "write times, residency and counters to this file");
+  command->callback([o, &action] { action = [o] { return runRender(*o); }; });
+}
+
+}  // namespace welkin::app

@@ -1,0 +1,209 @@
+#include "welkin/app/flight.h"
+
+#include <chrono>
+
+#include "welkin/app/checksum.h"
+#include "welkin/app/contact_sheet.h"
+#include "welkin/app/draw.h"
+#include "welkin/app/stop.h"
+#include "welkin/app/video.h"
+#include "welkin/core/files.h"
+#include "welkin/core/log.h"
+#include "welkin/core/progress.h"
+#include "welkin/core/units.h"
+
+namespace welkin::app {
+namespace {
+
+std::string heightText(double h_m) { return h_m >= 10000 ? fmt::format("{:.0f} km", h_m / 1000) : fmt::format("{:.0f} m", h_m); }
+
+// One replay: what it has and what it leaves.
+class Replay {
+ public:
+  Replay(const FlightOptions& options, FlightPlan plan) : options_(options), plan_(std::move(plan)), data_(dataChecksums(plan_.scene)) {
+    settings_.width = plan_.size.width;
+    settings_.height = plan_.size.height;
+    settings_.bricksPerFrame = options.bricksPerFrame;
+    settings_.workerJitterSeed = options.workerJitter;
+    settings_.waitForEdits = options.waitForEdits;
+  }
+
+  Result<void> run() {
+    const auto start = std::chrono::steady_clock::now();
+    auto stage = openStage(plan_.scene, settings_, options_.common.gpu);
+    if (!stage) return stage.error();
+    stage_ = std::move(*stage);
+    describe();
+    if (auto done = drawFrames(); !done) return done;
+    finishReport();
+    if (!report_.stopped) {
+      if (auto done = measureQuality(); !done) return done;
+    }
+    report_.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (auto written = writeFile(plan_.json, report_.json() + "\n"); !written) return written;
+    if (!pictures_.empty()) {
+      if (auto written = writePng(plan_.out / "contact-sheet.png", contactSheet(pictures_), {}); !written) return written;
+    }
+    summary();
+    if (report_.stopped)
+      return Error{
+          fmt::format("{}: stopped after {} of {} frames", options_.path.string(), report_.frames.size(), plan_.end - plan_.first)};
+    return {};
+  }
+
+ private:
+  const PathFrame& pose(int frame) const { return plan_.path.frames[std::size_t(frame)]; }
+
+  void describe() {
+    report_.context = describeRun(plan_.scene, plan_.size);
+    describeDevice(*stage_.context, report_.context);
+    report_.context.path = options_.path.generic_string();
+    report_.context.command = options_.command;
+    report_.context.bricksPerFrame = options_.bricksPerFrame;
+    report_.context.deterministic = options_.waitForEdits;
+    report_.name = "fly/" + options_.path.stem().string();
+  }
+
+  Result<void> drawFrames() {
+    std::unique_ptr<VideoWriter> video;
+    if (!options_.video.empty()) {
+      auto opened = VideoWriter::open(options_.video, plan_.size.width, plan_.size.height, plan_.framesPerSecond);
+      if (!opened) return opened.error();
+      video = std::move(*opened);
+    }
+    Progress progress("fly", options_.common.quiet);
+    const int warmUp = plan_.path.warmUp, total = warmUp + plan_.end - plan_.first;
+    for (int i = 0; i < warmUp && !stopRequested(); ++i) {
+      stage_.renderer->frame(pose(plan_.first).view);
+      progress.update(double(i + 1) / total, "warm-up");
+    }
+    for (int frame = plan_.first; frame < plan_.end && !stopRequested(); ++frame) {
+      if (auto done = drawFrame(frame, video.get()); !done) return done;
+      progress.update(double(warmUp + frame + 1 - plan_.first) / total, heightText(report_.frames.back().altitude_m));
+    }
+    report_.stopped = stopRequested();
+    return video ? video->finish() : Result<void>{};
+  }
+
+  Result<void> drawFrame(int frame, VideoWriter* video) {
+    const View& view = pose(frame).view;
+    // The first frame has no tree before it.
+    const bool pop = options_.pop && frame > plan_.first && frame >= options_.pop->first && frame < options_.pop->end.value_or(plan_.end);
+    Image8 before;
+    if (pop) {
+      stage_.renderer->preview(view);
+      before = stage_.renderer->image();
+    }
+    measure::FrameRow row;
+    row.pathFrame = frame;
+    row.time_s = pose(frame).time_s;
+    row.altitude_m = altitude_m(view, plan_.scene.planet);
+    row.stats = stage_.renderer->frame(view);
+    const bool quality = std::find(options_.qualityFrames.begin(), options_.qualityFrames.end(), frame) != options_.qualityFrames.end();
+    const bool wanted = pictureWanted(plan_, frame);
+    if (wanted || quality || video) {
+      Image8 image = stage_.renderer->image();
+      if (video) {
+        if (auto added = video->add(image); !added) return added;
+      }
+      if (wanted) {
+        row.picture = pictureName(frame);
+        if (auto written = writePicture(frame, image); !written) return written;
+      }
+      if (quality) qualityImages_.emplace_back(frame, std::move(image));
+    }
+    if (pop) {
+      stage_.renderer->preview(view);
+      const auto change = measure::compare(before, stage_.renderer->image());
+      if (!change) return change.error();
+      report_.pops.push_back({frame, change->p999_255, change->mean_255, change->max_255});
+    }
+    report_.frames.push_back(std::move(row));
+    return {};
+  }
+
+  Result<void> writePicture(int frame, const Image8& image) {
+    const auto state = stateOf(*stage_.renderer, pose(frame).view, plan_.size, pose(frame).time_s, false, data_);
+    pictures_.push_back(image);
+    return writePng(plan_.out / pictureName(frame), image, textsFromState(state, plan_.out));
+  }
+
+  void finishReport() {
+    const auto& renderer = *stage_.renderer;
+    report_.leftOut = renderer.plan().leftOut;
+    report_.passOrder = renderer.plan().passes;
+    report_.memoryByName = renderer.memory().byName();
+    report_.notes = renderer.notes();
+    report_.glMessages = stage_.context->debugMessages();
+    report_.glFirstMessages = stage_.context->firstMessages();
+  }
+
+  // A second renderer after the first is gone: the flight is not disturbed, and memory stays within one budget.
+  Result<void> measureQuality() {
+    if (qualityImages_.empty()) return {};
+    stage_.renderer.reset();
+    auto reference = Renderer::create(*stage_.context, plan_.scene, settings_);
+    if (!reference) return reference.error();
+    Progress progress("quality", options_.common.quiet);
+    for (std::size_t i = 0; i < qualityImages_.size(); ++i) {
+      const auto& [frame, image] = qualityImages_[i];
+      const auto drawn = drawConverged(**reference, pose(frame).view, [&](double f) {
+        progress.update((double(i) + f) / double(qualityImages_.size()), fmt::format("frame {}", frame));
+        return !stopRequested();
+      });
+      if (!drawn) {
+        report_.stopped = true;
+        return {};
+      }
+      auto error = measure::compare((*reference)->image(), image);
+      if (!error) return error.error();
+      report_.quality.push_back({frame, *error});
+      progress.update(double(i + 1) / double(qualityImages_.size()), fmt::format("frame {}", frame));
+    }
+    return {};
+  }
+
+  void summary() const {
+    fmt::print("{}", report_.table());
+    if (report_.frames.empty()) return;
+    fmt::print("{} frames at {}x{}, {} of {} used at most, on {}\n", report_.frames.size(), plan_.size.width, plan_.size.height,
+               bytesText(report_.greatestBytes()), bytesText(plan_.scene.quality.budget_bytes), report_.context.glRenderer);
+    if (!report_.quality.empty()) {
+      std::vector<double> rmse;
+      for (const auto& row : report_.quality) rmse.push_back(row.error.rmse_255);
+      const auto s = measure::summarize(rmse);
+      fmt::print("RMSE against the converged picture, 0-255, {} frames: median {:.2f}, max {:.2f}\n", s.n, s.median, s.max);
+    }
+    if (!report_.pops.empty()) {
+      double greatest = 0;
+      for (const auto& row : report_.pops) greatest = std::max(greatest, row.p999_255);
+      fmt::print("change by the tree alone, p99.9, 0-255, {} frames: {:.2f} at most\n", report_.pops.size(), greatest);
+    }
+    fmt::print("{}\n", plan_.json.string());
+    if (report_.nanPixels() > 0) log::warn("{} pixels were not a number", report_.nanPixels());
+    if (report_.holes() > 0) log::warn("{} rays met a place without data", report_.holes());
+    if (report_.glMessages > 0)
+      log::warn("{} messages of the GL, the first: {}", report_.glMessages,
+                report_.glFirstMessages.empty() ? "" : report_.glFirstMessages[0]);
+  }
+
+  const FlightOptions& options_;
+  FlightPlan plan_;
+  std::map<std::filesystem::path, std::string> data_;
+  RenderSettings settings_;
+  Stage stage_;
+  measure::TimingReport report_;
+  std::vector<Image8> pictures_;
+  std::vector<std::pair<int, Image8>> qualityImages_;
+};
+
+}  // namespace
+
+Result<void> fly(const FlightOptions& options) {
+  auto plan = planFlight(options);
+  if (!plan) return plan.error();
+  listenForStop();
+  return Replay(options, std::move(*plan)).run();
+}
+
+}  // namespace welkin::app
