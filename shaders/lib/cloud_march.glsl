@@ -8,13 +8,14 @@ struct CloudRay {
   float sky;
   float ground;
   float transmittance;
-  float distance_m;     // from the camera, weighted by what each point adds to opacity; of the far end if nothing is met
+  float distance_m;     // from the camera, weighted by what each point adds to opacity; of the ground or the sky if nothing is met
   uint cells, samples;  // look-ups, brick samples
   bool hole;
 };
 
 const float kOpaqueTransmittance = 1.0 / 512.0;
 const int kMaxCells = 4096;         // an opaque or left ray ends long before; software GL stops at 65535 turns in all
+const float kSkyDistance_m = 1e12;     // what is not there moves with the camera: only rotation reprojects it
 const float kThinBrick = 0.1;       // optical depth under which one segment serves a brick
 
 struct Segment { float near, far; };
@@ -40,8 +41,7 @@ Segment cloudSegment(dvec3 position, double altitude, double r, double radius, v
 CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, vec3 dir, float ground_m, CloudPhases phases) {
   CloudRay ray = CloudRay(0.0, 0.0, 0.0, 1.0, 0.0, 0u, 0u, false);
   Segment segment = cloudSegment(position, altitude, r, radius, dir, ground_m);
-  float far = ground_m >= 0.0 ? ground_m : max(segment.far, segment.near);
-  ray.distance_m = far;
+  ray.distance_m = ground_m >= 0.0 ? ground_m : kSkyDistance_m;
   if (segment.near >= segment.far) return ray;
   Walk walk = startWalk(position + dvec3(dir) * double(segment.near), dir);
   float t = 0.0, end = segment.far - segment.near;

@@ -21,6 +21,8 @@ uniform vec3 u_oldUp;
 
 const float kSameTexel = 1e-3;     // a shift under this is below what 16-bit history resolves: copy, so that a still picture stays
 const float kDistanceSlack = 0.2;  // history is of another surface if its distance is off by more than this share
+const float kEdge = 1.3;           // neighbours whose distances differ by more than this factor are a silhouette: what it hides changes
+const int kEdgeReach = 2;          // pixels
 
 vec3 rayDirection(ivec2 pixel) {
   vec2 ndc = vec2(2.0 * (float(pixel.x) + 0.5) / float(u_size.x) - 1.0, 1.0 - 2.0 * (float(pixel.y) + 0.5) / float(u_size.y));
@@ -57,23 +59,36 @@ void main() {
   vec3 at = vec3(0.0);
   bool valid = true;
   float found = distance, expected = distance;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3 && valid; ++i) {
     vec3 v = dir * distance + u_move;
     at = oldPixel(v);
     valid = at.z > 0.0 && all(greaterThanEqual(at.xy, vec2(0.0))) && all(lessThan(at.xy, vec2(u_size)));
     if (!valid) break;
     found = texelFetch(u_oldAux, ivec2(at.xy), 0).x;
     expected = length(v);
-    if (i < 2) distance *= found / max(expected, 1e-3);
+    if (i < 2) {
+      float ratio = found / max(expected, 1e-3);
+      valid = max(ratio, 1.0 / ratio) < kEdge;  // not another surface that happens to agree with itself
+      distance *= ratio;
+    }
   }
-  if (!valid || abs(found - expected) > kDistanceSlack * expected) {
+  vec2 shift = abs(at.xy - (vec2(pixel) + 0.5));
+  if (valid && max(shift.x, shift.y) >= kSameTexel) {
+    valid = abs(found - expected) <= kDistanceSlack * expected;
+    ivec2 centre = ivec2(at.xy), last = u_size - 1;
+    float a = texelFetch(u_oldAux, clamp(centre + ivec2(kEdgeReach, 0), ivec2(0), last), 0).x;
+    float b = texelFetch(u_oldAux, clamp(centre - ivec2(kEdgeReach, 0), ivec2(0), last), 0).x;
+    float c = texelFetch(u_oldAux, clamp(centre + ivec2(0, kEdgeReach), ivec2(0), last), 0).x;
+    float d = texelFetch(u_oldAux, clamp(centre - ivec2(0, kEdgeReach), ivec2(0), last), 0).x;
+    if (max(max(a, b), max(c, d)) > kEdge * min(min(a, b), min(c, d))) valid = false;
+  }
+  if (!valid) {
     uint slot = atomicAdd(count, 1u);
     pixels[slot] = uint(pixel.x) | (uint(pixel.y) << 16u);
     if ((slot & 63u) == 0u) atomicAdd(groups, 1u);
     atomicAdd(counters.rejectedPixels, 1u);
     return;
   }
-  vec2 shift = abs(at.xy - (vec2(pixel) + 0.5));
   if (max(shift.x, shift.y) < kSameTexel) {
     imageStore(u_light, pixel, texelFetch(u_oldLight, pixel, 0));
     imageStore(u_aux, pixel, texelFetch(u_oldAux, pixel, 0));
