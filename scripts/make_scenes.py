@@ -14,7 +14,7 @@ from globe import RADIUS_M, subsolar_deg, write_or_check
 SITE = {"latitude_deg": -33.5, "longitude_deg": -28.0}
 HEADING_DEG = 330.0
 SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 30.0, 48.0  # the poses look 60 degrees to the left of the sun
-EXPOSURE_EV = 2.0
+EXPOSURE_EV = 0.0
 
 PLANET = {"radius_m": RADIUS_M, "albedo": [0.06, 0.07, 0.10]}
 # Rayleigh, Mie and ozone of Hillaire (2020), table 1, at 680, 550, 440 nm.
