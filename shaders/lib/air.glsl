@@ -51,7 +51,8 @@ AirRay airRay(sampler3D scatter, AirParams air, AirViewFrame view, Ray ray) {
   vec3 sun = vec3(view.sunX, view.sunY, view.sunZ);
   vec3 horizontal = ray.dir - up * dot(ray.dir, up);
   // The smallest normal float only keeps straight up and down, where any azimuth is right, from 0 / 0.
-  float cosAzimuth = dot(horizontal, vec3(view.axisX, view.axisY, view.axisZ)) * inversesqrt(max(dot(horizontal, horizontal), 1.17549435e-38));
+  vec3 axis = vec3(view.axisX, view.axisY, view.axisZ);
+  float cosAzimuth = dot(horizontal, axis) * inversesqrt(max(dot(horizontal, horizontal), 1.17549435e-38));
   vec3 size = vec3(textureSize(scatter, 0));
   float first = ground ? 0.0 : float(kViewGroundTexels);
   float count = ground ? float(kViewGroundTexels) : size.x - float(kViewGroundTexels);

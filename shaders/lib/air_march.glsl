@@ -77,8 +77,8 @@ AirSegment airSegment(AirParams air, float h0, float mu) {
 struct AirRadiance {
   vec3 light, transmittance;
 };
-AirRadiance airMarch(sampler2D depthToTop, sampler2D multiple, AirBlock air, float h0, float mu, float muSun0, float cosine, AirSegment segment,
-                     int steps) {
+AirRadiance airMarch(sampler2D depthToTop, sampler2D multiple, AirBlock air, float h0, float mu, float muSun0, float cosine,
+                     AirSegment segment, int steps) {
   AirRadiance sum = AirRadiance(vec3(0.0), vec3(1.0));
   float phases[AIR_LAYERS] = airPhases(air, cosine);
   float peak = airPeakPhase(air.params, cosine);

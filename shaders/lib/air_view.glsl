@@ -27,8 +27,8 @@ struct AirViewSum {
   vec3 depth, smoothPart, peakPart;
 };
 
-AirViewSum airViewStep(sampler2D depthToTop, sampler2D multiple, AirBlock air, AirViewRay ray, float phases[AIR_LAYERS], AirViewSum sum, float t0,
-                       float t1) {
+AirViewSum airViewStep(sampler2D depthToTop, sampler2D multiple, AirBlock air, AirViewRay ray, float phases[AIR_LAYERS], AirViewSum sum,
+                       float t0, float t1) {
   float dt = t1 - t0;
   AirStep at = airStep(air.params, air.view.anchorAltitude_m, ray.mu, ray.muSun, ray.cosine, t0 + 0.5 * dt);
   AirPoint p = airPoint(air, at.altitude_m, phases);

@@ -39,10 +39,18 @@ Result<shared::AirLayer> layerOf(const AirLayer& in) {
   out.absorptionR = f(in.absorption_per_m[0]), out.absorptionG = f(in.absorption_per_m[1]), out.absorptionB = f(in.absorption_per_m[2]);
   out.g = f(in.g);
   switch (in.phase) {
-    case PhaseType::Rayleigh: out.phase = shared::kPhaseRayleigh; break;
-    case PhaseType::CornetteShanks: out.phase = shared::kPhaseCornetteShanks; break;
-    case PhaseType::HenyeyGreenstein: out.phase = shared::kPhaseHenyeyGreenstein; break;
-    case PhaseType::Isotropic: out.phase = shared::kPhaseIsotropic; break;
+    case PhaseType::Rayleigh:
+      out.phase = shared::kPhaseRayleigh;
+      break;
+    case PhaseType::CornetteShanks:
+      out.phase = shared::kPhaseCornetteShanks;
+      break;
+    case PhaseType::HenyeyGreenstein:
+      out.phase = shared::kPhaseHenyeyGreenstein;
+      break;
+    case PhaseType::Isotropic:
+      out.phase = shared::kPhaseIsotropic;
+      break;
   }
   return out;
 }
@@ -57,8 +65,10 @@ Result<shared::AirBlock> airBlock(const Scene& scene) {
   if (!scene.atmosphere) return Error{"the scene has no atmosphere"};
   const Atmosphere& atmosphere = *scene.atmosphere;
   if (atmosphere.layers.size() > shared::kMaxAirLayers)
-    return Error{"atmosphere: at most " + std::to_string(shared::kMaxAirLayers) + " layers, found " + std::to_string(atmosphere.layers.size())};
-  if (!(atmosphere.top_m > 0) || !(scene.planet.radius_m > 0)) return Error{"atmosphere: top_m and the planet's radius_m must be greater than 0"};
+    return Error{"atmosphere: at most " + std::to_string(shared::kMaxAirLayers) + " layers, found " +
+                 std::to_string(atmosphere.layers.size())};
+  if (!(atmosphere.top_m > 0) || !(scene.planet.radius_m > 0))
+    return Error{"atmosphere: top_m and the planet's radius_m must be greater than 0"};
   shared::AirBlock block{};
   shared::AirParams& p = block.params;
   p.radius_m = static_cast<float>(scene.planet.radius_m);
@@ -95,7 +105,8 @@ shared::AirViewFrame airViewFrame(const shared::AirParams& air, double centre_m,
   const double muHorizon = -std::sqrt(anchor * (2 * radius + anchor)) / (radius + anchor);
   const double cosSun = std::clamp(glm::dot(up, toSun), -1.0, 1.0);
   glm::dvec3 axis = toSun - up * cosSun;
-  if (!(glm::dot(axis, axis) > 0)) axis = glm::cross(up, std::abs(up.z) < 0.5 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0));  // any: sun overhead
+  if (!(glm::dot(axis, axis) > 0))
+    axis = glm::cross(up, std::abs(up.z) < 0.5 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0));  // any: sun overhead
   axis = glm::normalize(axis);
   const auto f = [](double v) { return static_cast<float>(v); };
   shared::AirViewFrame v{};

@@ -11,6 +11,8 @@ uniform float u_facing;  // 1 up, -1 down
 
 void main() {
   vec2 coord = vec2(gl_GlobalInvocationID.xy) / (vec2(kSunTexels, kAltitudeTexels) - 1.0);
-  vec3 light = airIrradianceAt(u_transmittance, u_multiple, u_irradiance, u_air, coordAltitude(u_air.params, coord.y), sunCosine(coord.x), u_facing);
-  imageStore(u_out, ivec2(gl_GlobalInvocationID.x, gl_GlobalInvocationID.y + (u_facing < 0.0 ? kAltitudeTexels : 0u)), vec4(light, 0.0));
+  float altitude = coordAltitude(u_air.params, coord.y);
+  vec3 light = airIrradianceAt(u_transmittance, u_multiple, u_irradiance, u_air, altitude, sunCosine(coord.x), u_facing);
+  uvec2 texel = gl_GlobalInvocationID.xy + uvec2(0u, u_facing < 0.0 ? kAltitudeTexels : 0u);
+  imageStore(u_out, ivec2(texel), vec4(light, 0.0));
 }

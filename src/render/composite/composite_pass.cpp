@@ -36,7 +36,8 @@ AlbedoPicture halved(const AlbedoPicture& in) {
 
 }  // namespace
 
-Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const Scene& scene, int width, int height, const AlbedoPicture* albedo) {
+Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const Scene& scene, int width, int height,
+                                            const AlbedoPicture* albedo) {
   CompositePass pass;
   pass.account_ = &account;
   pass.width_ = width, pass.height_ = height;
@@ -48,9 +49,10 @@ Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const S
     pass.sunRadius_rad_ = static_cast<float>(scene.sun->angularRadius_rad);
   }
   const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
-  auto program = gpu::Program::compute("pass/composite/composite.comp",
-                                       {{"OPT_CLOUDS", onOff(scene.clouds.has_value())}, {"OPT_AIR", onOff(scene.atmosphere.has_value())},
-                                        {"OPT_SUN", onOff(scene.sun.has_value())}, {"OPT_ALBEDO_MAP", onOff(albedo != nullptr)}});
+  auto program = gpu::Program::compute("pass/composite/composite.comp", {{"OPT_CLOUDS", onOff(scene.clouds.has_value())},
+                                                                         {"OPT_AIR", onOff(scene.atmosphere.has_value())},
+                                                                         {"OPT_SUN", onOff(scene.sun.has_value())},
+                                                                         {"OPT_ALBEDO_MAP", onOff(albedo != nullptr)}});
   if (!program) return program.error();
   pass.program_ = std::move(*program);
   auto radiance = target(account, GL_RGBA32F, width, height);
@@ -65,7 +67,9 @@ Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const S
 }
 
 Result<void> CompositePass::loadAlbedo(gpu::MemoryAccount& account, AlbedoPicture picture) {
-  const auto bytes = [&] { return static_cast<std::uint64_t>(picture.width) * picture.height * 4 * 4 / 3 + 64; };  // with all smaller copies
+  const auto bytes = [&] {
+    return static_cast<std::uint64_t>(picture.width) * picture.height * 4 * 4 / 3 + 64;
+  };  // with all smaller copies
   while (picture.width > 2048 || (bytes() > account.budget() / 16 && picture.width > 2 && picture.height > 2)) picture = halved(picture);
   if (!account.charge("albedo", bytes()))
     return Error{"the picture of the ground needs " + std::to_string(bytes()) + " bytes of GPU memory, which the budget has not"};

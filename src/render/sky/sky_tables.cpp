@@ -69,7 +69,8 @@ Result<void> SkyTables::allocate(gpu::MemoryAccount& account) {
 Result<void> SkyTables::compute() {
   const gpu::Defines defines = layerDefines(block_);
   // One dispatch for each value of `facing`.
-  const auto run = [&](const char* path, std::initializer_list<float> facing, const gpu::Texture& target, unsigned x, unsigned y) -> Result<void> {
+  const auto run = [&](const char* path, std::initializer_list<float> facing, const gpu::Texture& target, unsigned x,
+                       unsigned y) -> Result<void> {
     auto program = gpu::Program::compute(path, defines);
     if (!program) return program.error();
     target.bindImage(0, GL_WRITE_ONLY);
@@ -108,7 +109,8 @@ bool SkyTables::updateView(const CameraBlock& camera, glm::dvec3 toSun) {
     keyAltitude_m_ = keyAltitude, keyCosSun_ = keyCosSun;
     // The tables are made for the rounded pose; look-ups use the exact one, so the horizon stays where it is.
     const bool inside = altitude <= block_.params.top_m;
-    const double made = inside ? std::min<double>(keyAltitude, block_.params.top_m) : std::max<double>(keyAltitude, std::nextafter(block_.params.top_m, 1e9f));
+    const double made = inside ? std::min<double>(keyAltitude, block_.params.top_m)
+                               : std::max<double>(keyAltitude, std::nextafter(block_.params.top_m, 1e9f));
     AirBlock rounded = block_;
     const glm::dvec3 side{block_.view.axisX, block_.view.axisY, block_.view.axisZ};
     const double c = std::clamp(keyCosSun, -1.0, 1.0);

@@ -17,18 +17,20 @@ constexpr double kDegree = std::numbers::pi / 180;
 inline Scene skyScene(double sunZenith_rad) {
   Scene scene;
   scene.planet.radius_m = 6'360'000;
-  scene.atmosphere = Atmosphere{100'000,
-                                "auto",
-                                {{"rayleigh", ExponentialProfile{8000}, {5.802e-6, 13.558e-6, 33.1e-6}, {}, PhaseType::Rayleigh, 0},
-                                 {"mie", ExponentialProfile{1200}, {3.996e-6, 3.996e-6, 3.996e-6}, {0.444e-6, 0.444e-6, 0.444e-6}, PhaseType::CornetteShanks, 0.8},
-                                 {"ozone", TentProfile{25'000, 15'000}, {}, {0.650e-6, 1.881e-6, 0.085e-6}, PhaseType::Isotropic, 0}}};
+  scene.atmosphere = Atmosphere{
+      100'000,
+      "auto",
+      {{"rayleigh", ExponentialProfile{8000}, {5.802e-6, 13.558e-6, 33.1e-6}, {}, PhaseType::Rayleigh, 0},
+       {"mie", ExponentialProfile{1200}, {3.996e-6, 3.996e-6, 3.996e-6}, {0.444e-6, 0.444e-6, 0.444e-6}, PhaseType::CornetteShanks, 0.8},
+       {"ozone", TentProfile{25'000, 15'000}, {}, {0.650e-6, 1.881e-6, 0.085e-6}, PhaseType::Isotropic, 0}}};
   scene.sun = Sun{};
   scene.sun->direction_planet = {std::sin(sunZenith_rad), 0, std::cos(sunZenith_rad)};
   return scene;
 }
 
 // Above the pole at this altitude; azimuth from the sun's side (+X) towards +Y, pitch above the horizontal.
-inline shared::CameraBlock cameraOver(const Scene& scene, double altitude_m, double azimuth_rad, double pitch_rad, double fovY_rad, double aspect) {
+inline shared::CameraBlock cameraOver(const Scene& scene, double altitude_m, double azimuth_rad, double pitch_rad, double fovY_rad,
+                                      double aspect) {
   const double r = scene.planet.radius_m + altitude_m;
   const glm::dvec3 forward{std::cos(pitch_rad) * std::cos(azimuth_rad), std::cos(pitch_rad) * std::sin(azimuth_rad), std::sin(pitch_rad)};
   const glm::dvec3 right{std::sin(azimuth_rad), -std::cos(azimuth_rad), 0};
@@ -47,7 +49,8 @@ struct MultipleTable {
   glm::dvec3 at(const shared::AirParams& air, double altitude_m, double muSun) const {
     const double x = shared::sunCoord(static_cast<float>(muSun)) * (shared::kSunTexels - 1.0);
     const double y = shared::altitudeCoord(air, static_cast<float>(altitude_m)) * (shared::kAltitudeTexels - 1.0);
-    const int x0 = std::min(static_cast<int>(x), static_cast<int>(shared::kSunTexels) - 2), y0 = std::min(static_cast<int>(y), static_cast<int>(shared::kAltitudeTexels) - 2);
+    const int x0 = std::min(static_cast<int>(x), static_cast<int>(shared::kSunTexels) - 2),
+              y0 = std::min(static_cast<int>(y), static_cast<int>(shared::kAltitudeTexels) - 2);
     const auto get = [&](int i, int j) { return glm::dvec3(texels[static_cast<std::size_t>(j) * shared::kSunTexels + i]); };
     const double fx = x - x0, fy = y - y0;
     return glm::mix(glm::mix(get(x0, y0), get(x0 + 1, y0), fx), glm::mix(get(x0, y0 + 1), get(x0 + 1, y0 + 1), fx), fy);
@@ -70,8 +73,8 @@ inline glm::dvec3 trueSun(const shared::AirBlock& air, double altitude_m, double
 }
 
 // From `origin` (planet frame, m) along unit `dir` to `distance_m`, the ground or the end of the air. Midpoint steps, denser at both ends.
-inline TrueAir trueAir(const shared::AirBlock& air, const MultipleTable& multiple, glm::dvec3 origin, glm::dvec3 dir, glm::dvec3 toSun, double distance_m,
-                       int steps = 1200) {
+inline TrueAir trueAir(const shared::AirBlock& air, const MultipleTable& multiple, glm::dvec3 origin, glm::dvec3 dir, glm::dvec3 toSun,
+                       double distance_m, int steps = 1200) {
   const double radius = air.params.radius_m, top = radius + air.params.top_m;
   const double b = glm::dot(origin, dir), rr = glm::dot(origin, origin);
   const double disc = b * b - (rr - top * top);

@@ -22,13 +22,17 @@ class CompositePass {
  public:
   // Fails in one line: over the budget, or a shader that does not compile. What the scene has not is not compiled. The picture is halved
   // until it is at most 2048 wide and, with its smaller copies, at most 1/16 of the budget.
-  static Result<CompositePass> create(gpu::MemoryAccount& account, const Scene& scene, int width, int height, const AlbedoPicture* albedo = nullptr);
+  static Result<CompositePass> create(gpu::MemoryAccount& account, const Scene& scene, int width, int height,
+                                      const AlbedoPicture* albedo = nullptr);
   ~CompositePass();
   CompositePass(CompositePass&& o) noexcept { swap(o); }
-  CompositePass& operator=(CompositePass&& o) noexcept { swap(o); return *this; }
+  CompositePass& operator=(CompositePass&& o) noexcept {
+    swap(o);
+    return *this;
+  }
 
-  // Reads the camera (WK_CAMERA_BINDING, the same block as here), the sky tables (SkyTables::bind) and the cloud layer's two textures; counts
-  // into WK_COUNTERS_BINDING. Exposure in EV: 0 suits a sun of irradiance 1.
+  // Reads the camera (WK_CAMERA_BINDING, the same block as here), the sky tables (SkyTables::bind) and the cloud layer's two textures;
+  // counts into WK_COUNTERS_BINDING. Exposure in EV: 0 suits a sun of irradiance 1.
   void run(const shared::CameraBlock& camera, double exposure_ev) const;
 
   const gpu::Texture& radiance() const { return radiance_; }  // RGBA32F, linear, before exposure; a = 1 - cloud transmittance
