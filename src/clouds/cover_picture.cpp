@@ -20,16 +20,17 @@ Result<CoverPicture> loadCoverPicture(const std::filesystem::path& file) {
     return Error{fmt::format("{}: not a PNG picture of cloud cover: {}", file.string(), lodepng_error_text(code))};
   if (width != 2 * height || width < 16 || width > 32768)
     return Error{fmt::format("{}: {} x {} pixels; expected an equirectangular picture twice as wide as high, 16 to 32768 wide", file.string(), width, height)};
-  const bool alpha = lodepng_can_have_alpha(&state.info_png.color) != 0;
-  std::vector<unsigned char> pixels;
-  if (const unsigned code = lodepng::decode(pixels, width, height, encoded, alpha ? LCT_RGBA : LCT_GREY, 8); code != 0)
+  std::vector<unsigned char> rgba;
+  if (const unsigned code = lodepng::decode(rgba, width, height, encoded, LCT_RGBA, 8); code != 0)
     return Error{fmt::format("{}: broken PNG: {}", file.string(), lodepng_error_text(code))};
+  // whether there is alpha is seen in the pixels: a palette may carry it too
+  bool alpha = false;
+  for (std::size_t i = 3; i < rgba.size() && !alpha; i += 4) alpha = rgba[i] != 255;
   CoverPicture picture{static_cast<int>(width), static_cast<int>(height), {}};
-  if (!alpha) {
-    picture.cover = std::move(pixels);
-  } else {
-    picture.cover.resize(std::size_t{width} * height);
-    for (std::size_t i = 0; i < picture.cover.size(); ++i) picture.cover[i] = pixels[4 * i + 3];
+  picture.cover.resize(std::size_t{width} * height);
+  for (std::size_t i = 0; i < picture.cover.size(); ++i) {
+    const unsigned char* p = &rgba[4 * i];
+    picture.cover[i] = alpha ? p[3] : static_cast<std::uint8_t>((p[0] + p[1] + p[2] + 1) / 3);
   }
   return picture;
 }

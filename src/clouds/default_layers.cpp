@@ -11,7 +11,7 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "stratocumulus";
     l.base_m = 650, l.top_m = 1350, l.baseFade_m = 120, l.topFade_m = 150;
     l.extinction_per_m = 0.035;
-    l.coverGain = 1.9, l.coverBias = -0.05;
+    l.coverGain = 1.3, l.coverBias = -0.02;
     l.typeLow = 0, l.typeHigh = 0.6;
     l.cell_m = 6000, l.octaves = 7, l.gain = 0.55, l.billow = 0.75;
     l.softness = 0.14, l.taper = 0.16, l.topFollowsCover = 0.3;
@@ -22,7 +22,7 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "cumulus";
     l.base_m = 950, l.top_m = 2900, l.baseFade_m = 70, l.topFade_m = 300;
     l.extinction_per_m = 0.055;
-    l.coverGain = 1.3, l.coverBias = -0.02;
+    l.coverGain = 0.85, l.coverBias = -0.01;
     l.typeLow = 0.35, l.typeHigh = 1;
     l.cell_m = 3100, l.octaves = 7, l.gain = 0.5, l.billow = 0.6;
     l.softness = 0.07, l.taper = 0.55, l.topFollowsCover = 0.55;
@@ -33,7 +33,7 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "cumulonimbus";
     l.base_m = 900, l.top_m = 11500, l.baseFade_m = 150, l.topFade_m = 1200;
     l.extinction_per_m = 0.045;
-    l.coverGain = 1.6, l.coverBias = -0.75;
+    l.coverGain = 1.5, l.coverBias = -0.8;
     l.typeLow = 0.45, l.typeHigh = 1;
     l.cell_m = 12500, l.octaves = 9, l.gain = 0.5, l.billow = 0.55;
     l.softness = 0.08, l.taper = 0.5, l.topFollowsCover = 0.85;
@@ -44,7 +44,7 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "nimbostratus";
     l.base_m = 1800, l.top_m = 5200, l.baseFade_m = 500, l.topFade_m = 900;
     l.extinction_per_m = 0.014;
-    l.coverGain = 1.6, l.coverBias = -0.5;
+    l.coverGain = 1.3, l.coverBias = -0.5;
     l.typeLow = 0, l.typeHigh = 0.7;
     l.cell_m = 25000, l.octaves = 8, l.gain = 0.52, l.billow = 0.2;
     l.softness = 0.3, l.taper = 0.3, l.topFollowsCover = 0.7;
@@ -55,7 +55,7 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "altocumulus";
     l.base_m = 4400, l.top_m = 5000, l.baseFade_m = 120, l.topFade_m = 200;
     l.extinction_per_m = 0.012;
-    l.coverGain = 1.1, l.coverBias = -0.22;
+    l.coverGain = 0.9, l.coverBias = -0.2;
     l.typeLow = 0.2, l.typeHigh = 0.85;
     l.cell_m = 3100, l.octaves = 6, l.gain = 0.62, l.billow = 0.5;
     l.softness = 0.25, l.taper = 0.2;
@@ -66,7 +66,7 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "cirrus";
     l.base_m = 8200, l.top_m = 10200, l.baseFade_m = 800, l.topFade_m = 800;
     l.extinction_per_m = 0.0011;
-    l.coverGain = 1.5, l.coverBias = -0.08;
+    l.coverGain = 1.2, l.coverBias = -0.04;
     l.cell_m = 50000, l.octaves = 8, l.gain = 0.6, l.billow = 0.0;
     l.softness = 0.6, l.taper = 0.1;
     l.streak = 2, l.warp_m = 5000;

@@ -1,4 +1,4 @@
-#include "layer_params.h"
+#include "welkin/clouds/layer_params.h"
 
 #include <algorithm>
 #include <bit>
@@ -101,6 +101,12 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
   out.warpShift = shiftOf(std::max(4 * warp_m, 1.0), root);
   fillThresholds(out, octaves);
 
+  double variance = 0;
+  for (std::uint32_t k = 0; k < octaves; ++k) variance += std::pow(amplitude * std::pow(layer.gain, k), 2) * octaveVariance(double{out.billow});
+  // Of a column of cloud: tops are tapered, so it fills about this part of the layer.
+  constexpr double kFilled = 0.6;
+  const double depth = layer.extinction_per_m * (thickness - 0.5 * (baseFade + topFade)) * kFilled;
+
   for (std::uint32_t level = 0; level <= shared::kMaxDepth; ++level) {
     // The least cell that samples a voxel apart show is 1.75 voxels = 2^(30 - level) steps.
     const std::uint32_t leastShift = level >= 28 ? 2 : 30 - level;
@@ -121,6 +127,8 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
     out.shown[level] = static_cast<float>(amplitudeShown);
     out.spread[level] = static_cast<float>(spread);
     out.invSpread2[level] = spread > 1e-4 ? static_cast<float>(1 / (6 * spread * spread)) : 0;  // below, the cubic is under 2e-5
+    const double clump = variance > 0 ? depth * dropped / variance : 0;
+    out.clump[level] = clump > 1e-3 ? static_cast<float>(clump) : 0;
     const bool point = voxel_m < kPointPart * std::min(baseFade, topFade);
     out.filter_m[level] = point ? 0 : static_cast<float>(voxel_m);
   }

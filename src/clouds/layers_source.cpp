@@ -1,11 +1,11 @@
-#include "layers_source.h"
+#include "welkin/clouds/layers_source.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "layer_params.h"
-#include "noise_bounds.h"
+#include "welkin/clouds/layer_params.h"
+#include "welkin/clouds/noise_bounds.h"
 #include "welkin/shared/cloud_layers.glsl.h"
 
 namespace welkin {
@@ -156,7 +156,9 @@ Bounds LayeredClouds::layerBounds(std::uint32_t index, const Box& box) const {
   const auto value = [&](float profile, float x, float cover) {
     return layer.extinction_per_m * profile * std::clamp(x, 0.0f, 1.0f) * shared::thinness(cover);
   };
-  Bounds bounds{value(profileLo, xLo, coverLo), value(profileHi, xHi, coverHi)};
+  // clumping thins most at the box's own level; deeper ones not at all in the end
+  const float clumping = shared::clumping(layer.clump[box.level], std::clamp(xLo, 0.0f, 1.0f));
+  Bounds bounds{value(profileLo, xLo, coverLo) * clumping, value(profileHi, xHi, coverHi)};
   if (bounds.lo < bounds.hi) {
     bounds.lo = std::max(0.0f, bounds.lo - rounding * layer.extinction_per_m);
     bounds.hi = std::min(layer.extinction_per_m, bounds.hi + rounding * layer.extinction_per_m);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "layers_source.h"
-#include "sphere_source.h"
+#include "welkin/clouds/layers_source.h"
+#include "welkin/clouds/sphere_source.h"
 #include "welkin/clouds/cover_map.h"
 #include "welkin/clouds/default_layers.h"
 #include "welkin/clouds/density_source.h"
@@ -28,6 +28,7 @@ CoverMap bakePicture(const CoverPicture& picture, const ProceduralWeather& weath
       const glm::dvec3 b = glm::cross(d, a);
       cover = 0.25f * (picture.at(glm::normalize(d + a + b)) + picture.at(glm::normalize(d + a - b)) + picture.at(glm::normalize(d - a + b)) +
                        picture.at(glm::normalize(d - a - b)));
+      cover *= 2 - cover;  // the picture's brightness stays below the share of sky that is covered (mean 0.15; the Earth's is over 0.5)
     }
     if (t > 0) cover += static_cast<float>(t * t * (3 - 2 * t)) * (weather.at(d) - cover);
     return cover;

@@ -1,4 +1,4 @@
-#include "noise_bounds.h"
+#include "welkin/clouds/noise_bounds.h"
 
 #include <algorithm>
 #include <cmath>

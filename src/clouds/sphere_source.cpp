@@ -1,4 +1,4 @@
-#include "sphere_source.h"
+#include "welkin/clouds/sphere_source.h"
 
 #include <algorithm>
 #include <cmath>
