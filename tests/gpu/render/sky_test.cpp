@@ -14,6 +14,7 @@
 #include "welkin/render/sky/sky_tables.h"
 #include "welkin/shared/bindings.glsl.h"
 #include "welkin/shared/counters.glsl.h"
+#include "welkin/shared/ground.glsl.h"
 #include "welkin/shared/tonemap.glsl.h"
 
 namespace welkin {
@@ -298,6 +299,86 @@ TEST_F(Sky, BlockLayoutIsTheSameOnBothSides) {
   WK_SAME(layers[0].profile);
   WK_SAME(layers[5].g);
 #undef WK_SAME
+}
+
+// One row of 16 answers of air_twin.comp for each input.
+std::vector<float> twinAnswers(gpu::MemoryAccount& account, const SkyTables& sky, const std::vector<glm::vec4>& inputs) {
+  auto program = gpu::Program::compute("../tests/gpu/render/air_twin.comp");
+  EXPECT_TRUE(program.ok()) << program.error().message;
+  auto in = std::move(gpu::Buffer::create(account, "inputs", inputs.size() * 16).value());
+  auto out = std::move(gpu::Buffer::create(account, "answers", inputs.size() * 64).value());
+  in.upload(0, inputs);
+  sky.bind();
+  in.bind(GL_SHADER_STORAGE_BUFFER, 0);
+  out.bind(GL_SHADER_STORAGE_BUFFER, 1);
+  program->dispatch(static_cast<unsigned>(inputs.size() / 64));
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+  std::vector<float> answers(inputs.size() * 16);
+  out.download(0, std::as_writable_bytes(std::span(answers)));
+  return answers;
+}
+
+TEST_F(Sky, SharedFunctionsEqualTheirTwins) {
+  using namespace shared;
+  const Scene scene = skyScene(1);
+  auto sky = SkyTables::create(account, scene);
+  ASSERT_TRUE(sky.ok());
+  sky->updateView(cameraOver(scene, 9000, 0, 0, 1, 1), scene.sun->direction_planet);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<glm::vec4> inputs(4096);
+  for (auto& x : inputs) x = {std::floor(99'000 * unit(random) * unit(random)), 2 * unit(random) - 1, unit(random), unit(random)};
+  const auto answers = twinAnswers(account, *sky, inputs);
+  const AirBlock& air = sky->block();
+  double worst[14] = {};
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const glm::vec4 x = inputs[i];
+    const glm::vec3 sun = normalize(glm::vec3(x.y, 0.3f, x.z + 0.05f));
+    const float twin[14] = {
+        layerDensity(air.layers[0], x.x),
+        layerDensity(air.layers[1], x.x),
+        layerDensity(air.layers[2], x.x),
+        phaseCornetteShanks(x.y, 0.8f),
+        airOpticalDepthToTop(air, x.x, std::abs(x.y), 8).y,
+        sunVisible(air.params, x.x, x.y * 0.3f),
+        transmittanceCoord(air.params, x.x, std::abs(x.y)).x,
+        viewCoord(air.view, x.y, x.y < air.view.muHorizon),
+        airSliceOf(2 * x.z - 1, x.w),
+        sunCoord(x.y),
+        acesFilmic({4 * x.z, x.w, x.w * x.z}).x,
+        srgbEncode(x.z),
+        pixelDither(static_cast<std::uint32_t>(x.x), static_cast<std::uint32_t>(1000 * x.z)),
+        groundRadiance({0.02f, 0.03f, 0.08f}, {0, 0, 1}, sun, normalize(glm::vec3(0.2f, x.y, x.w + 0.05f)), glm::vec3(1), glm::vec3(0.2f))
+            .y};
+    for (std::size_t k = 0; k < 14; ++k)
+      worst[k] = std::max(worst[k], double(std::abs(answers[16 * i + k] - twin[k])) / std::max(std::abs(twin[k]), 0.01f));
+  }
+  // Software GL's exp and pow err by 3e-5; 5 is a difference of two near-equal cosines over the sun's radius, 2e-7 / 0.0047, and 6 and 7
+  // have flat ends where a square root magnifies 2^-24.
+  const double limit[14] = {5e-5, 5e-5, 1e-5, 1e-5, 5e-5, 2e-4, 2e-4, 2e-4, 1e-4, 1e-6, 1e-5, 2e-4, 0, 2e-4};
+  for (std::size_t k = 0; k < 14; ++k) EXPECT_LE(worst[k], limit[k]) << "function " << k;
+}
+
+// Air that absorbs nothing over white ground gives back what it gets: down and up fluxes are equal at the ground; at the top the flux up
+// is the sun's, thinned by (R / r)^2 because the sphere there is larger.
+TEST_F(Sky, IrradianceConservesEnergy) {
+  Scene scene = skyScene(0);
+  scene.planet.albedo = {1, 1, 1};
+  scene.atmosphere->layers.resize(1);
+  auto sky = SkyTables::create(account, scene);
+  ASSERT_TRUE(sky.ok());
+  std::vector<glm::vec4> inputs(64);
+  const float mus[] = {1.0f, 0.7f, 0.3f};
+  for (std::size_t i = 0; i < 3; ++i) inputs[2 * i] = {0, mus[i], 0, 0}, inputs[2 * i + 1] = {100'000, mus[i], 0, 0};
+  const auto answers = twinAnswers(account, *sky, inputs);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double direct = mus[i] * std::exp(-shared::airOpticalDepthToTop(sky->block(), 0, mus[i], 40).y);
+    const double down = direct + answers[32 * i + 14], up = answers[32 * i + 15], back = answers[32 * i + 31] / mus[i];
+    std::printf("sun's cosine %.1f: down %.4f up %.4f at the ground; %.4f of the sun's flux leaves the top\n", mus[i], down, up, back);
+    EXPECT_NEAR(up / down, 1, 5e-3) << "the sun's cosine on the ground is interpolated between 64 suns";
+    const double thinned = std::pow(6360.0 / 6460.0, 2);
+    EXPECT_NEAR(back / thinned, 1, 0.015) << "measured 0.992: multiple scattering as an isotropic source";
+  }
 }
 
 TEST_F(Sky, Times) {
