@@ -1,11 +1,11 @@
 // The walk of shared/walk.glsl.h against brute force: random trees, a million rays, grazing and axis-parallel ones included.
-#include "welkin/shared/walk.glsl.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "welkin/shared/walk.glsl.h"
 
 namespace welkin {
 namespace {
@@ -45,9 +45,9 @@ TEST(Walk, IntervalsAbutAndNothingIsSkipped) {
       glm::dvec3 start{unit(random), unit(random), unit(random)};
       start *= 4294967295.0;
       glm::dvec3 d{normal(random), normal(random), normal(random)};
-      if (r % 8 == 0) d[r / 8 % 3] = 0;                                        // in a plane of the grid
-      if (r % 16 == 1) d[(r / 16 + 1) % 3] = d[(r / 16 + 2) % 3] = 0;           // along an axis
-      if (r % 8 == 2) d[r / 8 % 3] *= 1e-6;                                    // grazing faces
+      if (r % 8 == 0) d[r / 8 % 3] = 0;                                             // in a plane of the grid
+      if (r % 16 == 1) d[(r / 16 + 1) % 3] = d[(r / 16 + 2) % 3] = 0;               // along an axis
+      if (r % 8 == 2) d[r / 8 % 3] *= 1e-6;                                         // grazing faces
       if (r % 32 == 3) start[r / 32 % 3] = std::floor(unit(random) * 64) * 0x1p26;  // on a face of the grid
       if (glm::length(d) == 0) d.x = 1;
       const glm::vec3 dir(glm::normalize(d));
@@ -72,7 +72,8 @@ TEST(Walk, IntervalsAbutAndNothingIsSkipped) {
             const double slack = (2 * walkError(next, float(kStep_m)) + pastExit(next, float(kStep_m))) / kStep_m;
             left = left || x[a] < slack || x[a] >= 4294967296.0 - slack;  // positions wrap at the root's faces
             if (left) continue;
-            ASSERT_LE(outside(x[a], low[a], low[a] + size), slack) << "seed " << seed << " tree " << t << " ray " << r << " axis " << a << " level " << level;
+            ASSERT_LE(outside(x[a], low[a], low[a] + size), slack)
+                << "seed " << seed << " tree " << t << " ray " << r << " axis " << a << " level " << level;
           }
         }
         ++cells;

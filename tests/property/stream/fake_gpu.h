@@ -94,6 +94,7 @@ class FakeGpu {
     std::map<std::uint32_t, BrickJob> now;
     std::set<std::uint32_t> groups;
     reachableGroups_ = 0;
+    emptyNow_.clear();
     float unused = 0;
     std::string wrong = visit(0, glm::uvec3(0), 0, now, groups, unused);
     if (!wrong.empty()) return wrong;
@@ -108,6 +109,14 @@ class FakeGpu {
       const bool gone = same == now.end() || same->second.corner != job.corner || same->second.level != job.level;
       if (gone && !covered(job, dirty)) return "a brick went and no node above it is dirty";
     }
+    // A map may name a node as the highest empty ancestor of any place in it: when that changes, all of it is dirty.
+    for (const auto& [address, empty] : emptyNow_) {
+      const auto old = empty_.find(address);
+      if (old == empty_.end() || old->second == empty) continue;
+      if (!covered({0, {address[1], address[2], address[3]}, address[0]}, dirty))
+        return "a node turned empty, or stopped being so, and is not dirty";
+    }
+    empty_.swap(emptyNow_);
     for (const std::uint32_t brick : lit) {
       if (!now.contains(brick)) return "a brick is lit that no ray can reach";
     }
@@ -152,6 +161,7 @@ class FakeGpu {
     }
     const std::uint32_t code = shared::wordMaxCode(w.word);
     if (code != maxCodeFor(greatest)) return "the maximum of a node is not that of what is reachable below it";
+    emptyNow_[{level, corner.x, corner.y, corner.z}] = code == 0;
     return {};
   }
 
@@ -167,6 +177,7 @@ class FakeGpu {
   std::vector<shared::NodeWords> words_;
   std::map<std::uint32_t, BrickJob> made_, shown_;
   std::map<std::array<std::uint32_t, 4>, float> maxima_;
+  std::map<std::array<std::uint32_t, 4>, bool> empty_, emptyNow_;  // by address
   std::deque<std::pair<std::uint64_t, BrickResult>> due_;
   std::size_t reachableGroups_ = 0;
 };

@@ -91,10 +91,10 @@ SelectionCamera cameraAt(double latitude_rad, double longitude_rad, double altit
 
 bool empty(const FrameEdits& e) { return e.generate.empty() && e.nodes.empty() && e.dirty.empty() && e.light.empty(); }
 
-class Seeded : public testing::TestWithParam<std::uint32_t> {};
-INSTANTIATE_TEST_SUITE_P(Seeds, Seeded, testing::Values(1u, 2u, 3u, 4u, 5u, 6u));
+class Flight : public testing::TestWithParam<std::uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(Seeds, Flight, testing::Values(1u, 2u, 3u, 4u, 5u, 6u));
 
-TEST_P(Seeded, RandomFlightsAndTeleportsKeepTheTreeSound) {
+TEST_P(Flight, RandomFlightsAndTeleportsKeepTheTreeSound) {
   RecordProperty("seed", static_cast<int>(GetParam()));
   World w(GetParam(), 12, 600, GetParam() % 2 ? 400 : 90);
   double latitude = 0.3, longitude = 0.2, altitude = 400'000, heading = 0;
@@ -117,7 +117,7 @@ TEST_P(Seeded, RandomFlightsAndTeleportsKeepTheTreeSound) {
   EXPECT_EQ(w.missing(cameraAt(latitude, longitude, 3000, 0, -0.1), 300), 0);
 }
 
-TEST_P(Seeded, WhatIsSampledOnAFlightIsResident) {
+TEST_P(Flight, WhatIsSampledOnAFlightIsResident) {
   World w(GetParam(), 13, 3000, 3000);
   double latitude = 0.3, altitude = 200'000;
   w.settle(cameraAt(latitude, 0, altitude, 0, -0.5));
@@ -135,7 +135,7 @@ TEST_P(Seeded, WhatIsSampledOnAFlightIsResident) {
   EXPECT_LE(missing, 0);
 }
 
-TEST_P(Seeded, AStaticSceneIsSilentAndATremblingCameraNearlySo) {
+TEST_P(Flight, AStaticSceneIsSilentAndATremblingCameraNearlySo) {
   World w(GetParam(), 14, 2000, 2000);
   const SelectionCamera camera = cameraAt(0.5, 1, 5000, 1, -0.2);
   w.settle(camera);
