@@ -9,11 +9,11 @@ import json
 
 from globe import RADIUS_M, subsolar_deg, write_or_check
 
-# The benchmark site: the frontal band of a South Atlantic cyclone, seen along its length. Of the cover picture's texels
-# within 40 degrees of the heading and 330 km, 98 % have more than half cover.
-SITE = {"latitude_deg": -33.5, "longitude_deg": -28.0}
-HEADING_DEG = 330.0
-SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 30.0, 48.0  # the poses look 60 degrees to the left of the sun
+# The benchmark site: broken cloud at the edge of a South Atlantic front (mean cover 0.28 within 20 km), looking along the front
+# (mean cover 0.60 within 40 degrees of the heading and 250 km): two thirds of the pixels from 9 km up are cloudy.
+SITE = {"latitude_deg": -41.5, "longitude_deg": -23.0}
+HEADING_DEG = 240.0
+SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 300.0, 48.0  # the poses look 60 degrees to the left of the sun
 EXPOSURE_EV = 0.0
 
 PLANET = {"radius_m": RADIUS_M, "albedo": [0.06, 0.07, 0.10]}
@@ -55,14 +55,14 @@ def scene(name, data, quality, views):
 
 # Every view of the eight documented pictures stands where the cover picture has the cloud that it is about.
 EARTH_VIEWS = {
-    "disc": view(30_000_000, -90, latitude_deg=-14.0, longitude_deg=-38.0, heading_deg=0, fov_deg=26),
+    "disc": view(30_000_000, -90, latitude_deg=-16.0, longitude_deg=-34.0, heading_deg=0, fov_deg=26),
     "limb": view(250_000, -15, latitude_deg=-48.0, longitude_deg=-20.0, heading_deg=335, fov_deg=40),
     "orbit": view(400_000, -25),
     "cyclone": view(120_000, -48, latitude_deg=-42.4, longitude_deg=-49.6, heading_deg=345),
     "layers": view(9_000, -3),
     "inside": view(2_000, 6, latitude_deg=-32.2, longitude_deg=-30.5, heading_deg=60),
     "overcast": view(2, 12, latitude_deg=-32.2, longitude_deg=-30.5, heading_deg=300),
-    "sunset": view(2, 9, latitude_deg=6.3, longitude_deg=77.6, heading_deg=270, fov_deg=50),
+    "sunset": view(2, 9, latitude_deg=-17.5, longitude_deg=-151.0, heading_deg=98, fov_deg=50),
 }
 ZOOM_FOVS_DEG = [58, 30, 10, 3, 1, 0.3, 0.1]
 ZOOM_VIEWS = {f"zoom-{fov:g}": view(400_000, -25, fov_deg=fov) for fov in ZOOM_FOVS_DEG}
