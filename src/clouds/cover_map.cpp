@@ -250,9 +250,10 @@ CoverRange CoverMap::range(glm::uvec3 low, std::uint64_t size, std::uint32_t gre
     range.lo = std::min(range.lo, r.lo);
     range.hi = std::max(range.hi, r.hi);
   }
-  // mips store means of the exact cover, rounded on their own: half a step of 8 bits either way
-  if (greatestMip > 0) range = {std::max(0.0f, range.lo - 0.002f), std::min(1.0f, range.hi + 0.002f)};
-  return {std::max(0.0f, range.lo - 1e-6f), std::min(1.0f, range.hi + 1e-6f)};
+  if (range.hi <= 0) return {0, 0};  // every texel is zero, on all mips
+  // mips store means of the exact cover, rounded on their own: half a step of 8 bits either way; else rounding of the spline
+  const float slack = greatestMip > 0 ? 0.002f : 1e-6f;
+  return {std::max(0.0f, range.lo - slack), std::min(1.0f, range.hi + slack)};
 }
 
 }  // namespace welkin

@@ -35,14 +35,22 @@ Result<CoverPicture> loadCoverPicture(const std::filesystem::path& file) {
   return picture;
 }
 
-float CoverPicture::at(glm::dvec3 d) const {
+float CoverPicture::at(glm::dvec3 d, double width_rad) const {
   const auto longitude = std::atan2(static_cast<float>(d.y), static_cast<float>(d.x));
   const auto latitude = std::asin(std::clamp(static_cast<float>(d.z), -1.0f, 1.0f));
   constexpr float kPi = std::numbers::pi_v<float>;
   const float x = (longitude / (2 * kPi) + 0.5f) * static_cast<float>(width) - 0.5f;
-  const float y = std::clamp((0.5f - latitude / kPi) * static_cast<float>(height) - 0.5f, 0.0f, static_cast<float>(height - 1));
+  const float y = (0.5f - latitude / kPi) * static_cast<float>(height) - 0.5f;
+  if (width_rad <= 0) return bilinear(x, y);
+  const float dy = static_cast<float>(width_rad) * 0.25f / kPi * static_cast<float>(height);
+  const float dx = dy / std::max(0.02f, static_cast<float>(std::sqrt(std::max(0.0, 1 - d.z * d.z))));
+  return 0.25f * (bilinear(x - dx, y - dy) + bilinear(x + dx, y - dy) + bilinear(x - dx, y + dy) + bilinear(x + dx, y + dy));
+}
+
+float CoverPicture::bilinear(float x, float yFree) const {
+  const float y = std::clamp(yFree, 0.0f, static_cast<float>(height - 1));
   const float fx = std::floor(x);
-  const int x0 = (static_cast<int>(fx) + width) % width, x1 = (x0 + 1) % width;
+  const int x0 = ((static_cast<int>(fx) % width) + width) % width, x1 = (x0 + 1) % width;
   const int y0 = static_cast<int>(y), y1 = std::min(y0 + 1, height - 1);
   const float u = x - fx, v = y - static_cast<float>(y0);
   const auto texel = [&](int i, int j) { return static_cast<float>(cover[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)]); };

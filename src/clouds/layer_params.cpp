@@ -13,6 +13,9 @@ namespace {
 constexpr double kLeastFade_m = 1;
 // Below this part of the fade the profile's mean over a voxel differs from its value at the point by less than 1/160 at a kink.
 constexpr double kPointPart = 0.05;
+// How fast clumps get resolved with the share of the noise's variance that is shown: fitted so that transmittance is the same on all
+// levels (tests/unit/clouds/layers_test.cpp prints it); half of it, or double, is visibly worse.
+constexpr double kClumpPower = 0.35;
 
 std::uint32_t shiftOf(double cell_m, const RootFrame& root) {
   return static_cast<std::uint32_t>(std::clamp(std::lround(std::log2(cell_m * root.stepsPerMetre())), 2l, 30l));
@@ -39,7 +42,32 @@ void fillThresholds(shared::CloudLayerParams& out, std::uint32_t octaves) {
     out.threshold[i] = values[static_cast<std::size_t>((1 - exceed) * (kSamples - 1))];
   }
   // full cover is solid: the ramp is at its end everywhere but in the taper's upper half
-  out.threshold[shared::kThresholdSteps] -= 1 / out.invSoftness + 0.5f * out.taper;
+  out.threshold[shared::kThresholdSteps] -= 1 / out.invSoftness + 0.5f * out.taper + 0.01f;  // and rounding
+}
+
+// Optical depth t of a clump for clumping(): of sample columns under half cover, mean depth and mean transmittance give the factor
+// 1 / (1 + t / 2) that turns one into the other.
+double clumpDepth(const shared::CloudLayerParams& layer, const RootFrame& root, std::uint32_t octaves) {
+  constexpr std::uint32_t kColumns = 256, kHeights = 16;
+  const float threshold = layer.threshold[shared::kThresholdSteps / 2];
+  const double dz_m = static_cast<double>(layer.thickness_m) / kHeights;
+  double depth = 0, transmittance = 0;
+  for (std::uint32_t i = 0; i < kColumns; ++i) {
+    const auto bits = [&](std::uint32_t axis) { return shared::mixBits(shared::mixBits(i * 3 + axis + 77777) + layer.seed); };
+    glm::uvec3 p(bits(0), bits(1), bits(2));
+    double sum = 0;
+    for (std::uint32_t k = 0; k < kHeights; ++k) {
+      const float z = (static_cast<float>(k) + 0.5f) * static_cast<float>(dz_m);
+      // up is along x: a streaked layer is as deep there as it is wide
+      const glm::uvec3 q(p.x + static_cast<std::uint32_t>(static_cast<double>(z) * root.stepsPerMetre()), p.y, p.z);
+      const float x = (layerNoise(layer, q, octaves) - threshold - layer.taper * z * layer.invThickness) * layer.invSoftness;
+      const float profile = std::min(std::min(z * layer.invBaseFade, (layer.thickness_m - z) * layer.invTopFade), 1.0f);
+      sum += static_cast<double>(std::clamp(x, 0.0f, 1.0f) * profile * layer.extinction_per_m) * dz_m;
+    }
+    depth += sum / kColumns;
+    transmittance += std::exp(-sum) / kColumns;
+  }
+  return depth > 1e-6 ? std::max(0.0, 2 * (depth / -std::log(transmittance) - 1)) : 0;
 }
 
 }  // namespace
@@ -103,9 +131,7 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
 
   double variance = 0;
   for (std::uint32_t k = 0; k < octaves; ++k) variance += std::pow(amplitude * std::pow(layer.gain, k), 2) * octaveVariance(double{out.billow});
-  // Of a column of cloud: tops are tapered, so it fills about this part of the layer.
-  constexpr double kFilled = 0.6;
-  const double depth = layer.extinction_per_m * (thickness - 0.5 * (baseFade + topFade)) * kFilled;
+  const double depth = octaves > 0 ? clumpDepth(out, root, octaves) : 0;
 
   for (std::uint32_t level = 0; level <= shared::kMaxDepth; ++level) {
     // The least cell that samples a voxel apart show is 1.75 voxels = 2^(30 - level) steps.
@@ -127,7 +153,7 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
     out.shown[level] = static_cast<float>(amplitudeShown);
     out.spread[level] = static_cast<float>(spread);
     out.invSpread2[level] = spread > 1e-4 ? static_cast<float>(1 / (6 * spread * spread)) : 0;  // below, the cubic is under 2e-5
-    const double clump = variance > 0 ? depth * dropped / variance : 0;
+    const double clump = variance > 0 ? depth * std::pow(dropped / variance, kClumpPower) : 0;
     out.clump[level] = clump > 1e-3 ? static_cast<float>(clump) : 0;
     const bool point = voxel_m < kPointPart * std::min(baseFade, topFade);
     out.filter_m[level] = point ? 0 : static_cast<float>(voxel_m);

@@ -94,8 +94,8 @@ void LayeredClouds::noiseBounds(const shared::CloudLayerParams& layer, const Box
     reach_steps = h + layer.warp_steps * std::min(2.0f, 3 * shared::kNoiseLipschitz * std::ldexp(h, -static_cast<int>(layer.warpShift))) + 2;
   }
   lo = hi = 0;
-  float amplitude = layer.amplitude;
-  for (std::uint32_t k = 0; k < octaves; ++k, amplitude *= layer.gain) {
+  float amplitude = layer.amplitude, rest = 1;
+  for (std::uint32_t k = 0; k < octaves; ++k, rest -= amplitude, amplitude *= layer.gain) {
     const std::uint32_t s = layer.shift - k, z = s - layer.streak, seed = shared::octaveSeed(layer.seed, k);
     Interval n{-1, 1};
     if (!warped) {
@@ -109,7 +109,7 @@ void LayeredClouds::noiseBounds(const shared::CloudLayerParams& layer, const Box
       }
     }
     if (n.lo <= -1 && n.hi >= 1) {  // this octave and all finer ones: the whole range
-      const float rest = amplitude * (1 - std::pow(layer.gain, static_cast<float>(octaves - k))) / (1 - layer.gain);
+      rest = std::max(rest, 0.0f);
       lo -= rest * lowAmplitude(layer.billow);
       hi += rest * layer.restHigh;
       return;
@@ -157,7 +157,7 @@ Bounds LayeredClouds::layerBounds(std::uint32_t index, const Box& box) const {
     return layer.extinction_per_m * profile * std::clamp(x, 0.0f, 1.0f) * shared::thinness(cover);
   };
   // clumping thins most at the box's own level; deeper ones not at all in the end
-  const float clumping = shared::clumping(layer.clump[box.level], std::clamp(xLo, 0.0f, 1.0f));
+  const float clumping = shared::clumping(layer.clump[box.level], coverLo);
   Bounds bounds{value(profileLo, xLo, coverLo) * clumping, value(profileHi, xHi, coverHi)};
   if (bounds.lo < bounds.hi) {
     bounds.lo = std::max(0.0f, bounds.lo - rounding * layer.extinction_per_m);

@@ -18,16 +18,12 @@ constexpr double kBlendFrom_deg = 74, kBlendTo_deg = 82;
 
 CoverMap bakePicture(const CoverPicture& picture, const ProceduralWeather& weather, std::uint32_t edge) {
   const double from = std::sin(kBlendFrom_deg * M_PI / 180), to = std::sin(kBlendTo_deg * M_PI / 180);
-  // four samples a texel, each bilinear: an area filter of about the texel's size
-  const double quarter = 0.5 / edge;
-  return CoverMap::bake(edge, [&, from, to, quarter](glm::dvec3 d) {
+  const double texel_rad = 2.0 / edge;  // at a face's middle
+  return CoverMap::bake(edge, [&, from, to, texel_rad](glm::dvec3 d) {
     const double t = std::clamp((std::abs(d.z) - from) / (to - from), 0.0, 1.0);
     float cover = 0;
     if (t < 1) {
-      const glm::dvec3 a = glm::normalize(glm::cross(std::abs(d.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0), d)) * quarter;
-      const glm::dvec3 b = glm::cross(d, a);
-      cover = 0.25f * (picture.at(glm::normalize(d + a + b)) + picture.at(glm::normalize(d + a - b)) + picture.at(glm::normalize(d - a + b)) +
-                       picture.at(glm::normalize(d - a - b)));
+      cover = picture.at(d, texel_rad);
       cover *= 2 - cover;  // the picture's brightness stays below the share of sky that is covered (mean 0.15; the Earth's is over 0.5)
     }
     if (t > 0) cover += static_cast<float>(t * t * (3 - 2 * t)) * (weather.at(d) - cover);

@@ -49,7 +49,7 @@ Interval noiseInterval(glm::uvec3 corner, std::uint32_t sizeShift, std::uint32_t
     reach += half[a] * (steepest + fadeSlope(t[a] - half[a], t[a] + half[a]) * difference);
   }
   const float slack = 1e-5f;  // rounding of the sum of eight terms
-  return {std::max(-1.0f, (centre - reach) * shared::kNoiseScale - slack), std::min(1.0f, (centre + reach) * shared::kNoiseScale + slack)};
+  return {std::clamp((centre - reach) * shared::kNoiseScale - slack, -1.0f, 1.0f), std::clamp((centre + reach) * shared::kNoiseScale + slack, -1.0f, 1.0f)};
 }
 
 Interval billowInterval(Interval n, float billow) {

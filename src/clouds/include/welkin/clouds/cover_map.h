@@ -16,7 +16,11 @@ namespace welkin {
 struct CoverPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> cover;  // 255 = full
-  float at(glm::dvec3 direction_planet) const;  // bilinear, 0..1
+  // 0..1: bilinear, or the mean of four such samples spread over a square of this width.
+  float at(glm::dvec3 direction_planet, double width_rad = 0) const;
+
+ private:
+  float bilinear(float x, float y) const;  // in pixels
 };
 
 // Reads a PNG: cover is its alpha, or its grey value where it has no alpha. Error: one line that names the file.

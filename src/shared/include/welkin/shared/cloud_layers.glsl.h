@@ -2,8 +2,8 @@
 // Density of layered procedural clouds at a fixed-point position, band-limited to the voxel of a level.
 //
 // A layer is cloud where noise exceeds a threshold that its cover sets. What a level cannot show is replaced by its expectation:
-// octaves finer than the voxel by the mean of the threshold's ramp over them, the height profile by its mean over the voxel. So
-// optical depth survives on every level. Integers, + - * min max, one division per layer whose top follows the cover, one
+// octaves finer than the voxel by the mean of the threshold's ramp over them, the height profile by its mean over the voxel, so
+// that optical depth survives on every level; and clumps finer than the voxel by what they let through (clumping). Integers, + - * min max, one division per layer whose top follows the cover, one
 // division and one root for the altitude; no exp, sin or pow.
 #include "welkin/shared/cloud_source.glsl.h"
 #include "welkin/shared/cover.glsl.h"
@@ -32,17 +32,17 @@ WK_FN float cloudType(WK_SOURCE_PARAM uvec3 p) {
   return typeFromNoise(noise3(p, shift, shift, seed), noise3(p, shift - 1u, shift - 1u, octaveSeed(seed, 1u)), z2 / r2);
 }
 
-// Integral of clamp(x, 0, 1) from minus infinity to x.
-WK_FN float rampIntegral(float x) {
-  float c = clamp(x, F(0.0), F(1.0));
-  return c * (max(x, F(0.0)) - F(0.5) * c);
+// Mean of clamp(x, 0, 1) over [a, b], a < b. Exactly 0 or 1 where that is constant.
+WK_FN float rampMean(float a, float b) {
+  float ca = clamp(a, F(0.0), F(1.0)), cb = clamp(b, F(0.0), F(1.0));
+  return (F(0.5) * (cb - ca) * (cb + ca) + (max(b, F(1.0)) - max(a, F(1.0)))) / (b - a);
 }
 
-// Integral of the trapezoid profile up to z metres above the base.
-WK_FN float profileIntegral(WK_SOURCE_PARAM uint layer, float z) {
-  float top = WK_LAYER(layer).thickness_m - WK_LAYER(layer).topFade_m;
-  return WK_LAYER(layer).baseFade_m * rampIntegral(z * WK_LAYER(layer).invBaseFade) -
-         WK_LAYER(layer).topFade_m * rampIntegral((z - top) * WK_LAYER(layer).invTopFade);
+// Mean of the trapezoid profile over [low, high], metres above the base: it rises and falls in turn, so it is rise + fall - 1.
+WK_FN float profileMean(WK_SOURCE_PARAM uint layer, float low, float high) {
+  if (high <= F(0.0) || low >= WK_LAYER(layer).thickness_m) return F(0.0);
+  float thickness = WK_LAYER(layer).thickness_m, rise = WK_LAYER(layer).invBaseFade, fall = WK_LAYER(layer).invTopFade;
+  return max(rampMean(low * rise, high * rise) + rampMean((thickness - high) * fall, (thickness - low) * fall) - F(1.0), F(0.0));
 }
 
 WK_FN float profileAt(WK_SOURCE_PARAM uint layer, float z) {
@@ -93,6 +93,12 @@ WK_FN uvec3 warpedPosition(WK_SOURCE_PARAM uint layer, uvec3 p) {
   return uvec3(p.x + warpSteps(b, steps), p.y - warpSteps(b, steps), p.z + warpSteps(a, steps));
 }
 
+// Clouds smaller than a voxel hide less than their mean does. Columns of which a fraction c holds cloud of optical depth t have the
+// effective optical depth -log(1 - c + c exp(-t)), less than their mean c t by about 1 / (1 + (1 - c) t). `clump` is t, as measured for the
+// layer, times the share of the noise that the level does not show: it vanishes as the clouds get resolved, and full cover is
+// untouched. So transmittance survives on every level, not only its logarithm; from space a field of small heaps is grey, not white.
+WK_FN float clumping(float clump, float c) { return clump > F(0.0) ? F(1.0) / (F(1.0) + clump * (F(1.0) - c)) : F(1.0); }
+
 // Extinction in 1/m of one layer. `altitude_m` is that of p; cover and type are 0..1.
 WK_FN float layerDensity(WK_SOURCE_PARAM uint layer, uvec3 p, uint level, float altitude_m, float cover, float type) {
   // Cloud is mirrored at the ground: samples below it carry what the average of the samples above would lose.
@@ -112,9 +118,7 @@ WK_FN float layerDensity(WK_SOURCE_PARAM uint layer, uvec3 p, uint level, float 
     middle = z;
   } else {
     float mirrored = F(-2.0) * base * scale - z;
-    profile = (profileIntegral(WK_SOURCE_ARG layer, z + reach) - profileIntegral(WK_SOURCE_ARG layer, z - reach) +
-               profileIntegral(WK_SOURCE_ARG layer, mirrored + reach) - profileIntegral(WK_SOURCE_ARG layer, mirrored - reach)) /
-              (F(2.0) * reach);
+    profile = profileMean(WK_SOURCE_ARG layer, z - reach, z + reach) + profileMean(WK_SOURCE_ARG layer, mirrored - reach, mirrored + reach);
     middle = F(0.5) * (clamp(z - reach, F(0.0), thickness) + clamp(z + reach, F(0.0), thickness));
   }
   profile = min(profile, F(1.0));
@@ -140,8 +144,9 @@ WK_FN float layerDensity(WK_SOURCE_PARAM uint layer, uvec3 p, uint level, float 
   }
   float x = (n - threshold) * invSoftness;
   float inv = WK_LAYER(layer).invSpread2[level];
-  float ramp = clamp(expectedPositive(x, spread, inv) - expectedPositive(x - F(1.0), spread, inv), F(0.0), F(1.0));
-  return WK_LAYER(layer).extinction_per_m * profile * ramp * thinness(c);
+  float ramp = F(1.0);
+  if (x - F(1.0) < spread) ramp = clamp(expectedPositive(x, spread, inv) - expectedPositive(x - F(1.0), spread, inv), F(0.0), F(1.0));
+  return WK_LAYER(layer).extinction_per_m * profile * ramp * thinness(c) * clumping(WK_LAYER(layer).clump[level], c);
 }
 
 // Extinction in 1/m of all layers: the densest one counts, so a tower that pierces a deck is no denser for it.

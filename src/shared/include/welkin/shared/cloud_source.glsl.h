@@ -59,6 +59,7 @@ struct CloudLayerParams {
   float shown[25];       // by level: sum of the amplitudes of its octaves
   float spread[25];      // by level: half width of what the level cannot show, in units of softness
   float invSpread2[25];  // 1 / (6 spread^2), 0 if spread is 0
+  float clump[25];       // by level: optical depth of a clump times the share of the noise that is not shown
   float filter_m[25];    // by level: height over which the profile is averaged; 0: taken at the point
 };
 WK_END

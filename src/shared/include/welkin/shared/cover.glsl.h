@@ -1,7 +1,8 @@
 #pragma once
 // Cover on six cube faces. Face order +X -X +Y -Y +Z -Z; on a face of axis a the coordinates are the components a+1 and a+2 (cyclic)
 // over |component a|, -1..1. A face stores one border texel all round: copies of the neighbour's edge row, texel for texel. Half a
-// texel off an edge both faces then blend the same two rows with the same weights, so value and slope go on across the seam.
+// texel off an edge both faces then blend the same two rows with the same weights, so value and slope go on across the seam
+// (within a texel of the eight corners the value alone).
 #include "welkin/shared/cloud_source.glsl.h"
 WK_BEGIN
 
