@@ -58,11 +58,11 @@ EARTH_VIEWS = {
     "disc": view(30_000_000, -90, latitude_deg=-16.0, longitude_deg=-34.0, heading_deg=0, fov_deg=26),
     "limb": view(250_000, -15, latitude_deg=-48.0, longitude_deg=-20.0, heading_deg=335, fov_deg=40),
     "orbit": view(400_000, -25),
-    "cyclone": view(120_000, -48, latitude_deg=-42.4, longitude_deg=-49.6, heading_deg=345),
+    "cyclone": view(550_000, -62, latitude_deg=-43.5, longitude_deg=-48.5, heading_deg=345),
     "layers": view(9_000, -3),
     "inside": view(2_000, 6, latitude_deg=-32.2, longitude_deg=-30.5, heading_deg=60),
     "overcast": view(2, 12, latitude_deg=-32.2, longitude_deg=-30.5, heading_deg=300),
-    "sunset": view(2, 9, latitude_deg=-17.5, longitude_deg=-151.0, heading_deg=98, fov_deg=50),
+    "sunset": view(2, 9, latitude_deg=-32.5, longitude_deg=-154.0, heading_deg=104, fov_deg=50),
 }
 ZOOM_FOVS_DEG = [58, 30, 10, 3, 1, 0.3, 0.1]
 ZOOM_VIEWS = {f"zoom-{fov:g}": view(400_000, -25, fov_deg=fov) for fov in ZOOM_FOVS_DEG}
