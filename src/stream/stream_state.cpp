@@ -11,7 +11,9 @@
 namespace welkin {
 namespace {
 
-constexpr double kLeastDetail = 1.0 / 64;  // keeps the logarithm of K finite while there is only the root
+// While there is only the root, K would be 0 for a camera inside it. This keeps its logarithm finite, and asks for the root alone
+// from a centimetre on. From nothing it does not glide up but starts where levels begin to show.
+constexpr double kLeastDetail = 1e-9, kGlideFrom = 1.0 / 64;
 constexpr double kGlideUp = 1.02, kGlideDown = 0.95;
 // A level is sampled from 3/8 of its range on: its child's range is half of it, and the last quarter of that blends with this level.
 constexpr double kSampledFrom = 0.375;
@@ -123,7 +125,7 @@ void StreamState::Impl::followDetail(bool snap) {
   if (following) {
     detail = targetDetail;
   } else if (targetDetail > detail) {
-    detail = std::min(targetDetail, detail * kGlideUp);
+    detail = std::min(targetDetail, std::max(detail, kGlideFrom) * kGlideUp);
   } else {
     detail = std::max(targetDetail, detail * kGlideDown);
   }

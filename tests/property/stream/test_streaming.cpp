@@ -135,6 +135,24 @@ TEST_P(Flight, WhatIsSampledOnAFlightIsResident) {
   EXPECT_LE(missing, 0);
 }
 
+// With too few bricks a frame the wanted tree is not there for long; what is promised as sampled must be there all the same.
+TEST_P(Flight, AColdStartPromisesOnlyWhatIsThere) {
+  World w(GetParam(), 13, 3000, 3000);
+  const SelectionCamera camera = cameraAt(0.3, 0.1, 6000, 0, -0.3);
+  int missing = 0;
+  double least = 1e9, most = 0;
+  for (int i = 0; i < 60; ++i) {
+    w.step(camera, 40, 2, 0, true);
+    if (HasFatalFailure()) return;
+    missing += w.missing(camera, 20);
+    least = std::min<double>(least, w.last.sampleDetail);
+    most = std::max<double>(most, w.last.sampleDetail);
+  }
+  EXPECT_EQ(missing, 0);
+  EXPECT_LT(least, 0.1);  // only the root
+  EXPECT_GT(most, 4);     // and then a lot
+}
+
 TEST_P(Flight, AStaticSceneIsSilentAndATremblingCameraNearlySo) {
   World w(GetParam(), 14, 2000, 2000);
   const SelectionCamera camera = cameraAt(0.5, 1, 5000, 1, -0.2);
