@@ -112,7 +112,7 @@ struct Reader {
 
   CloudLayer cloudLayer(const JsonPlace& p) const {
     p.object({"name", "base_m", "top_m", "base_fade_m", "top_fade_m", "extinction_per_m", "cover_gain", "cover_bias", "type_low",
-              "type_high", "cell_m", "octaves", "gain", "billow", "softness", "taper", "top_follows_cover"});
+              "type_high", "cell_m", "octaves", "gain", "billow", "softness", "taper", "top_follows_cover", "streak", "warp_m"});
     CloudLayer out;
     if (p.has("name")) out.name = p.at("name").text(0, 200);
     out.base_m = p.numberOr("base_m", out.base_m, kAltitude_m);
@@ -132,6 +132,8 @@ struct Reader {
     out.softness = p.numberOr("softness", out.softness, above(0, 10));
     out.taper = p.numberOr("taper", out.taper, {0, 10});
     out.topFollowsCover = p.numberOr("top_follows_cover", out.topFollowsCover, kFraction);
+    if (p.has("streak")) out.streak = int(p.at("streak").integer(0, 8));
+    out.warp_m = p.numberOr("warp_m", out.warp_m, {0, 1e6});
     return out;
   }
 

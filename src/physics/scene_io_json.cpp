@@ -146,10 +146,15 @@ std::vector<std::string> JsonPlace::keys() const {
 }
 
 double JsonPlace::number(Range range) const {
-  const bool bounded = range.high < std::numeric_limits<double>::max();
-  const std::string wanted = bounded ? fmt::format("a number {} {} and {} {}", range.lowOpen ? "over" : "from", range.low,
-                                                   range.highOpen ? "under" : "to", range.high)
-                                     : "a number";
+  std::string wanted = "a number";
+  if (range.high < std::numeric_limits<double>::max()) {
+    const bool open = range.lowOpen || range.highOpen;
+    wanted += fmt::format(" {} {} {}{} {}", range.lowOpen ? "over" : "from", range.low, open ? "and " : "",
+                          range.highOpen ? "under"
+                          : open         ? "up to"
+                                         : "to",
+                          range.high);
+  }
   if (!value_->is_number()) fail(wanted);
   const double v = value_->get<double>();
   const bool low = range.lowOpen ? v > range.low : v >= range.low;

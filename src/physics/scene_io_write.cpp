@@ -49,23 +49,28 @@ struct Writer {
   }
 
   Json cloudLayer(const CloudLayer& l) const {
-    return {{"name", l.name},
-            {"base_m", l.base_m},
-            {"top_m", l.top_m},
-            {"base_fade_m", l.baseFade_m},
-            {"top_fade_m", l.topFade_m},
-            {"extinction_per_m", l.extinction_per_m},
-            {"cover_gain", l.coverGain},
-            {"cover_bias", l.coverBias},
-            {"type_low", l.typeLow},
-            {"type_high", l.typeHigh},
-            {"cell_m", l.cell_m},
-            {"octaves", l.octaves},
-            {"gain", l.gain},
-            {"billow", l.billow},
-            {"softness", l.softness},
-            {"taper", l.taper},
-            {"top_follows_cover", l.topFollowsCover}};
+    // Names every field: one added to CloudLayer does not compile here until it is written too, and a picture's state stays whole.
+    const auto& [name, base_m, top_m, baseFade_m, topFade_m, extinction_per_m, coverGain, coverBias, typeLow, typeHigh, cell_m, octaves,
+                 gain, billow, softness, taper, topFollowsCover, streak, warp_m] = l;
+    return {{"name", name},
+            {"base_m", base_m},
+            {"top_m", top_m},
+            {"base_fade_m", baseFade_m},
+            {"top_fade_m", topFade_m},
+            {"extinction_per_m", extinction_per_m},
+            {"cover_gain", coverGain},
+            {"cover_bias", coverBias},
+            {"type_low", typeLow},
+            {"type_high", typeHigh},
+            {"cell_m", cell_m},
+            {"octaves", octaves},
+            {"gain", gain},
+            {"billow", billow},
+            {"softness", softness},
+            {"taper", taper},
+            {"top_follows_cover", topFollowsCover},
+            {"streak", streak},
+            {"warp_m", warp_m}};
   }
 
   Json cloudSource(const CloudSource& source) const {
@@ -90,6 +95,9 @@ struct Writer {
 }  // namespace
 
 std::string sceneToJson(const Scene& scene, const fs::path& baseFolder, int indent) {
+  [[maybe_unused]] const auto& [sceneName, file, planet, atmosphere, sun, clouds, quality, exposure_ev, views] =
+      scene;  // as above: none forgotten
+  [[maybe_unused]] const auto& [radius_m, albedo, albedoMap] = scene.planet;
   const Writer writer{baseFolder};
   Json out;
   if (!scene.name.empty()) out["name"] = scene.name;
@@ -111,8 +119,8 @@ std::string sceneToJson(const Scene& scene, const fs::path& baseFolder, int inde
     out["clouds"]["combine"] = scene.clouds->combineMax ? "max" : "add";
   }
   for (const auto& [name, view] : scene.views) out["views"][name] = detail::writeView(view);
-  const auto& q = scene.quality;
-  out["quality"] = {{"budget", bytesExact(q.budget_bytes)}, {"depth", q.depth}, {"step", q.step}, {"detail", q.detail}, {"seed", q.seed}};
+  const auto& [budget_bytes, depth, step, detail, seed] = scene.quality;
+  out["quality"] = {{"budget", bytesExact(budget_bytes)}, {"depth", depth}, {"step", step}, {"detail", detail}, {"seed", seed}};
   out["output"]["exposure_ev"] = scene.exposure_ev;
   return out.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
