@@ -6,7 +6,8 @@ const float kShadowReach = 1.5;     // a node is sampled up to this many times i
 const float kOpaque = 200.0;        // optical depth past which no light is left: exp(-200 / 4) in the widest octave
 const int kMaxVisits = 256;         // well over the worst case of 30 levels of 6 cells
 
-float sunDepth(dvec3 start_planet) {
+// From `skip_m` along the ray onwards to the top of the clouds.
+float sunDepth(dvec3 start_planet, float skip_m) {
   vec3 dir = tree.sunDir.xyz;
   double r = length(start_planet);
   double radius = double(tree.planetRadius_m);
@@ -17,11 +18,13 @@ float sunDepth(dvec3 start_planet) {
   if (shell.near > shell.far) return 0.0;
   if (ground.near <= ground.far && r > radius) return kOpaque;  // behind the planet
   Walk walk = startWalk(start_planet, dir);
-  float t = shell.near, end = shell.far, depth = 0.0;
+  // how far the start is from where the maps are centred; along the ray that grows by at most t
+  float fromCentre = length(vec3(start_planet) - tree.mapCentre.xyz);
+  float t = max(shell.near, skip_m), end = shell.far, depth = 0.0;
   for (int visit = 0; visit < kMaxVisits && t < end && depth < kOpaque; ++visit) {
     uvec3 p = walkTo(walk, t);
     uint level = detailAt(kShadowReach * tree.rootSize_m / max(t, 1.0), tree.depth).level;
-    uint word = lookUp(p, level, tree.mapBase);
+    uint word = lookUp(p, level, mapLevelAt(tree.rootSize_m / (fromCentre + t), tree.mapBase, tree.depth));
     uint at = wordLevel(word);
     float next = min(t + nodeExit(p, at, walk.dirSteps, walk.metrePerStep) + pastExit(t), end);
     if (!wordEmpty(word)) {

@@ -67,8 +67,8 @@ struct Renderer::Impl {
   void note(std::string line) { notes.push_back(std::move(line)); }
   double shellTop_m() const { return plan.air ? scene.atmosphere->top_m : source ? std::max(source->top_m(), 1.0) : 1.0; }
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
-  void apply(FrameEdits&& edits, glm::dvec3 camera_planet, bool draw, FrameStats& stats);
-  void updateTreeBlock();
+  void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats);
+  void updateTreeBlock(glm::dvec3 camera_planet);
   void beginPicture(const ViewFrame& frame);                  // camera, counters, sky
   void endPicture(const ViewFrame& frame, const View& view);  // composite
   FrameStats report(FrameStats stats) const;
@@ -123,14 +123,15 @@ Result<void> Renderer::Impl::create() {
   stream.groupCapacity = layout.groups;
   stream.detailLimit = scene.quality.detail;
   streamer = std::make_unique<Streamer>(*source, root, stream, settings.workerJitterSeed);
-  updateTreeBlock();
+  updateTreeBlock({0, 0, 0});
   return {};
 }
 
-void Renderer::Impl::updateTreeBlock() {
+void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
   shared::TreeBlock block{};
   const glm::dvec3 sun = scene.sun ? scene.sun->direction_planet : glm::dvec3(0, 0, 1);
   block.sunDir = glm::vec4(glm::vec3(sun), plan.sun ? 1.0f : 0.0f);
+  block.mapCentre = glm::vec4(glm::vec3(camera_planet), 0.0f);
   block.detail = last.sampleDetail;
   block.maxExtinction_per_m = source->maxExtinction();
   block.bandBase_m = last.bandBase_m;
@@ -151,12 +152,12 @@ void Renderer::Impl::ask(const ViewFrame& view, std::uint32_t maxBricks, bool sn
   streamer->post(std::move(input));
 }
 
-void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, bool draw, FrameStats& stats) {
+void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats) {
   timer.begin("maps");
   tree->store(edits);
   last = std::move(edits);
-  updateTreeBlock();
-  tree->updateMaps(camera_planet, !draw);
+  updateTreeBlock(camera_planet);
+  tree->updateMaps(camera_planet);
   timer.end();
   stats.bricksLit += static_cast<std::uint32_t>(last.light.size());
   if (plan.sun && !last.light.empty()) {
@@ -228,14 +229,14 @@ FrameStats Renderer::frame(const View& view, FrameMode mode) {
     std::vector<BrickJob> generate;
     if (haveEdits) {
       generate = std::move(edits.generate);
-      r.apply(std::move(edits), view.position_m, true, stats);
+      r.apply(std::move(edits), view.position_m, stats);
     } else {
       FrameEdits nothing = r.last;   // the camera moved: the maps follow
       nothing.nodes.clear();
       nothing.dirty.clear();
       nothing.light.clear();
       nothing.generate.clear();
-      r.apply(std::move(nothing), view.position_m, true, stats);
+      r.apply(std::move(nothing), view.position_m, stats);
     }
     r.tree->bind();
     r.clouds->run(frame, mode, r.scene, r.timer);
@@ -270,7 +271,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     FrameEdits edits = r.streamer->take(r.asked.front());
     r.asked.pop_front();
     const std::vector<BrickJob> generate = std::move(edits.generate);
-    r.apply(std::move(edits), view.position_m, false, stats);
+    r.apply(std::move(edits), view.position_m, stats);
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
     r.timer.end();
@@ -293,7 +294,8 @@ void Renderer::preview(const View& view) {
   const bool timed = std::exchange(r.timer.enabled, false);
   r.beginPicture(frame);
   if (r.plan.clouds) {
-    r.tree->updateMaps(view.position_m, false);
+    r.updateTreeBlock(view.position_m);
+    r.tree->updateMaps(view.position_m);
     r.tree->bind();
     r.clouds->preview(r.scene);
   }

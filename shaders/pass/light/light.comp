@@ -1,5 +1,6 @@
-// One work group lights one brick: shadow rays from a 4^3 lattice through the tree to the top of the clouds, spread over the 8^3
-// samples. A ray's level follows from position and distance alone, not from the brick it starts in, so neighbours agree on a face.
+// One work group lights one brick. The sun's depth of a sample is a near part, integrated sample by sample through one lattice spacing of
+// the brick's own level, and a far part from there to the top of the clouds, which is smooth: 4^3 shadow rays through the tree,
+// interpolated. A far ray's level follows from position and distance alone, so neighbours agree on a face.
 #include "lib/brick_image.glsl"
 #include "lib/shadow.glsl"
 
@@ -7,26 +8,56 @@ layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(std430, binding = WK_BRICK_JOBS_BINDING) readonly buffer Jobs { GpuBrickJob jobs[]; };
 uniform uint u_firstJob;
 
-shared float s_depth[4][4][4];
+const float kNearCells = 7.0 / 3.0;  // one spacing of the lattice
+const int kNearSamples = 3;
+
+shared float s_far[4][4][4];
+
+float farDepth(uvec3 i) {
+  vec3 at = vec3(i) * (3.0 / 7.0);
+  uvec3 a = min(uvec3(at), uvec3(2u));
+  vec3 f = at - vec3(a);
+  vec4 x0 = vec4(s_far[a.z][a.y][a.x], s_far[a.z][a.y + 1u][a.x], s_far[a.z + 1u][a.y][a.x], s_far[a.z + 1u][a.y + 1u][a.x]);
+  vec4 x1 = vec4(s_far[a.z][a.y][a.x + 1u], s_far[a.z][a.y + 1u][a.x + 1u], s_far[a.z + 1u][a.y][a.x + 1u], s_far[a.z + 1u][a.y + 1u][a.x + 1u]);
+  vec4 x = mix(x0, x1, f.x);
+  vec2 y = mix(x.xz, x.yw, f.y);
+  return mix(y.x, y.y, f.z);
+}
+
+// Sum of densities at midpoints along the near part. Outside the brick the neighbour of the same level is asked.
+float nearSum(GpuBrickJob job, uvec3 i, float cell_m, uint mapLevel) {
+  Walk walk;
+  walk.origin = brickSample(uvec3(job.x, job.y, job.z), job.level, i);
+  walk.dirSteps = tree.sunDir.xyz * float(tree.stepsPerMetre);
+  float sum = 0.0;
+  for (int n = 0; n < kNearSamples; ++n) {
+    float cells = kNearCells * (float(n) + 0.5) / float(kNearSamples);
+    vec3 at = vec3(i) + tree.sunDir.xyz * cells;
+    if (all(greaterThanEqual(at, vec3(0.0))) && all(lessThanEqual(at, vec3(7.0)))) {
+      sum += sampleBrick(job.brick, at).r;
+    } else {
+      uvec3 p = walkTo(walk, cells * cell_m);
+      uint word = lookUp(p, job.level, mapLevel);
+      if (!wordEmpty(word)) sum += sampleBrick(wordBrick(word), nodeLocal(p, wordLevel(word)) * 7.0).r;
+    }
+  }
+  return sum;
+}
 
 void main() {
   GpuBrickJob job = jobs[u_firstJob + gl_WorkGroupID.x];
-  uvec3 corner = uvec3(job.x, job.y, job.z);
   uvec3 l = gl_LocalInvocationID;
   double size_m = double(tree.stepLength_m) * double(levelSteps(job.level));
-  dvec3 start = dvec3(corner) / tree.stepsPerMetre - tree.half_m + dvec3(l) * (size_m / 3.0LF);
-  s_depth[l.z][l.y][l.x] = sunDepth(start);
+  float cell_m = float(size_m) / 7.0;
+  dvec3 start = dvec3(job.x, job.y, job.z) / tree.stepsPerMetre - tree.half_m + dvec3(l) * (size_m / double(3.0));
+  s_far[l.z][l.y][l.x] = sunDepth(start, kNearCells * cell_m);
   barrier();
+  float perSample = tree.maxExtinction_per_m * cell_m * kNearCells / float(kNearSamples);
+  float reach_m = length(vec3(start) - tree.mapCentre.xyz) + 2.0 * float(size_m);  // every sample is nearer than this
+  uint mapLevel = mapLevelAt(tree.rootSize_m / reach_m, tree.mapBase, tree.depth);
   for (uint k = 0u; k < 8u; ++k) {
     uvec3 i = l * 2u + uvec3(k & 1u, (k >> 1u) & 1u, k >> 2u);
-    vec3 at = vec3(i) * (3.0 / 7.0);
-    uvec3 a = min(uvec3(at), uvec3(2u));
-    vec3 f = at - vec3(a);
-    vec4 x0 = vec4(s_depth[a.z][a.y][a.x], s_depth[a.z][a.y + 1u][a.x], s_depth[a.z + 1u][a.y][a.x], s_depth[a.z + 1u][a.y + 1u][a.x]);
-    vec4 x1 = vec4(s_depth[a.z][a.y][a.x + 1u], s_depth[a.z][a.y + 1u][a.x + 1u], s_depth[a.z + 1u][a.y][a.x + 1u], s_depth[a.z + 1u][a.y + 1u][a.x + 1u]);
-    vec4 x = mix(x0, x1, f.x);
-    vec2 y = mix(x.xz, x.yw, f.y);
-    float depth = mix(y.x, y.y, f.z);
+    float depth = farDepth(i) + perSample * nearSum(job, i, cell_m, mapLevel);
     storeTexel(tree, job.brick, i, vec2(loadTexel(tree, job.brick, i).x, encodeDepth(depth)));
   }
 }

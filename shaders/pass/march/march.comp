@@ -6,7 +6,8 @@
 #include "lib/air.glsl"
 layout(binding = WK_SKY_TRANSMITTANCE_UNIT) uniform sampler2D u_skyTransmittance;
 layout(binding = WK_SKY_IRRADIANCE_UNIT) uniform sampler2D u_skyIrradiance;
-layout(std430, binding = WK_AIR_PARAMS_BINDING) readonly buffer AirBuffer { AirParams air; };
+layout(std140, binding = WK_AIR_PARAMS_BINDING) uniform AirUniforms { AirBlock u_air; };
+#define air u_air.params
 #endif
 
 #define PIXELS_ALL 0
@@ -69,7 +70,7 @@ void main() {
   }
   float shadow = 1.0;
   if (view.ground_m >= 0.0 && cloud.transmittance > 0.0 && tree.sunDir.w > 0.0)
-    shadow = cloudShadow(sunDepth(position + dvec3(view.dir) * double(view.ground_m)));
+    shadow = cloudShadow(sunDepth(position + dvec3(view.dir) * double(view.ground_m), 0.0));
   imageStore(u_light, pixel, vec4(light, cloud.transmittance));
   imageStore(u_aux, pixel, vec4(cloud.distance_m, shadow, 0.0, 0.0));
   atomicAdd(counters.marchedPixels, 1u);

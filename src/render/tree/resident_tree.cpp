@@ -139,9 +139,9 @@ void ResidentTree::placeWindow(std::uint32_t level, glm::dvec3 camera_planet) {
   map.placed = true;
 }
 
-void ResidentTree::updateMaps(glm::dvec3 camera_planet, bool baseOnly) {
+void ResidentTree::updateMaps(glm::dvec3 camera_planet) {
   jobs_.clear();
-  for (std::uint32_t level = layout_.mapBase; level <= (baseOnly ? layout_.mapBase : layout_.depth); ++level) {
+  for (std::uint32_t level = layout_.mapBase; level <= layout_.depth; ++level) {
     placeWindow(level, camera_planet);
     Map& map = map_[level];
     if (map.stale.none()) continue;

@@ -29,8 +29,7 @@ class ResidentTree {
   static Result<ResidentTree> create(gpu::MemoryAccount& account, const TreeLayout& layout, const RootFrame& root);
 
   void store(const FrameEdits& edits);                       // node words and marks maps stale
-  // Rebuilds stale map cells around the camera; `baseOnly`: just the map of the whole root (enough for shadow rays).
-  void updateMaps(glm::dvec3 camera_planet, bool baseOnly);
+  void updateMaps(glm::dvec3 camera_planet);                 // rebuilds stale map cells around the camera
   void updateBlock(const shared::TreeBlock& block);          // detail, band, sun … ; the layout's fields are filled in here
   void bind() const;                                         // nodes, maps, bricks, block
   void bindBrickImages(GLenum access) const;

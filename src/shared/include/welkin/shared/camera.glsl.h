@@ -7,7 +7,7 @@ namespace welkin::shared { using glm::dvec3; struct alignas(32) dvec4 { double x
 #define WK_D(x) (x)
 #else
 dvec3 xyz(dvec4 v) { return v.xyz; }
-#define WK_D(x) (x##LF)
+#define WK_D(x) double(x)
 #endif
 WK_BEGIN
 

@@ -26,6 +26,7 @@ struct TreeBlock {
   double half_m;            // half of the root's edge
   double stepsPerMetre;
   vec4 sunDir;              // planet frame; w: 1 if the scene has a sun
+  vec4 mapCentre;           // planet frame, m: where the octree maps are placed around, the camera
   float stepLength_m;       // of one fixed-point step
   float rootSize_m;
   float detail;             // K: level L is sampled up to K * nodeSize(L) away
