@@ -135,6 +135,25 @@ TEST_P(Flight, WhatIsSampledOnAFlightIsResident) {
   EXPECT_LE(missing, 0);
 }
 
+// Inside the clouds, faster than the finest levels can follow: detail must neither collapse nor be promised where it is not.
+TEST_P(Flight, AFastFlightThroughCloudKeepsItsDetail) {
+  World w(GetParam(), 20, 3000, 3000);
+  const auto at = [](int i) { return cameraAt(0.3 + i * 150.0 / kRadius_m, 0, 5000, 0, 0); };
+  w.settle(at(0));
+  if (HasFatalFailure()) return;
+  int missing = 0;
+  double least = 1e9;
+  for (int i = 1; i < 70; ++i) {
+    w.step(at(i), 800);
+    if (HasFatalFailure()) return;
+    if (i < 30) continue;  // it starts at full speed, which nothing could foresee
+    least = std::min<double>(least, w.last.sampleDetail);
+    missing += w.missing(at(i + 2), 20);  // drawn two frames later
+  }
+  EXPECT_EQ(missing, 0);
+  EXPECT_GT(least, 2);
+}
+
 // With too few bricks a frame the wanted tree is not there for long; what is promised as sampled must be there all the same.
 TEST_P(Flight, AColdStartPromisesOnlyWhatIsThere) {
   World w(GetParam(), 13, 3000, 3000);
