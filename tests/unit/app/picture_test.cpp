@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "welkin/app/checksum.h"
 #include "welkin/app/contact_sheet.h"
@@ -173,7 +174,7 @@ TEST_F(Pictures, foreignPictures) {
 void tearApart(const fs::path& file, const fs::path& broken) {
   const std::string whole = *readFile(file);
   const auto check = [&](const std::string& bytes) {
-    ASSERT_TRUE(writeFile(broken, bytes).ok());
+    std::ofstream(broken, std::ios::binary) << bytes;
     auto picture = readPicture(broken);
     if (picture.ok()) {
       if (auto state = stateFromTexts(picture->texts, broken); state.ok()) return;
@@ -182,7 +183,7 @@ void tearApart(const fs::path& file, const fs::path& broken) {
     EXPECT_THAT(picture.error().message, StartsWith(broken.string() + ": "));
     EXPECT_EQ(picture.error().message.find('\n'), std::string::npos) << picture.error().message;
   };
-  const std::size_t stride = std::max<std::size_t>(1, whole.size() / 400);  // every file is fsynced: some hundred are enough for seconds
+  const std::size_t stride = std::max<std::size_t>(1, whole.size() / 1000);  // a second or two
   for (std::size_t n = 0; n < whole.size(); n += stride) check(whole.substr(0, n));
   for (std::size_t i = 0; i < whole.size(); i += stride) {
     std::string flipped = whole;
