@@ -142,8 +142,10 @@ void CoverMap::buildPyramid() {
           for (std::uint32_t k = 0; k < 4; ++k) {
             const std::uint32_t sx = 2 * x + k % 2, sy = 2 * y + k / 2;
             Cell s;
-            if (pyramid_.empty()) s.lo = s.hi = texel(0, face, sx + 1, sy + 1);
-            else s = pyramid_.back()[(std::size_t{face} * 2 * e + sy) * 2 * e + sx];
+            if (pyramid_.empty())
+              s.lo = s.hi = texel(0, face, sx + 1, sy + 1);
+            else
+              s = pyramid_.back()[(std::size_t{face} * 2 * e + sy) * 2 * e + sx];
             c.lo = std::min(c.lo, s.lo);
             c.hi = std::max(c.hi, s.hi);
           }
@@ -163,8 +165,11 @@ CoverRange CoverMap::texels(std::uint32_t face, int x0, int y0, int x1, int y1) 
   for (int y = y0 >> k; y <= y1 >> k; ++y)
     for (int x = x0 >> k; x <= x1 >> k; ++x) {
       Cell c;
-      if (k == 0) c.lo = c.hi = texel(0, face, static_cast<std::uint32_t>(x) + 1, static_cast<std::uint32_t>(y) + 1);
-      else c = pyramid_[k - 1][(std::size_t{face} * (edge_[0] >> k) + static_cast<std::uint32_t>(y)) * (edge_[0] >> k) + static_cast<std::uint32_t>(x)];
+      if (k == 0)
+        c.lo = c.hi = texel(0, face, static_cast<std::uint32_t>(x) + 1, static_cast<std::uint32_t>(y) + 1);
+      else
+        c = pyramid_[k - 1][(std::size_t{face} * (edge_[0] >> k) + static_cast<std::uint32_t>(y)) * (edge_[0] >> k) +
+                            static_cast<std::uint32_t>(x)];
       lo = std::min(lo, c.lo);
       hi = std::max(hi, c.hi);
     }
@@ -188,7 +193,9 @@ CoverRange CoverMap::faceRange(std::uint32_t face, glm::dvec4 rect, std::uint32_
     float dx = 0, dy = 0;
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
-        const auto at = [&](int i, int j) { return static_cast<float>(texel(0, face, static_cast<std::uint32_t>(i) + 1, static_cast<std::uint32_t>(j) + 1)); };
+        const auto at = [&](int i, int j) {
+          return static_cast<float>(texel(0, face, static_cast<std::uint32_t>(i) + 1, static_cast<std::uint32_t>(j) + 1));
+        };
         if (x < x1) dx = std::max(dx, std::abs(at(x + 1, y) - at(x, y)));
         if (y < y1) dy = std::max(dy, std::abs(at(x, y + 1) - at(x, y)));
       }
@@ -197,7 +204,8 @@ CoverRange CoverMap::faceRange(std::uint32_t face, glm::dvec4 rect, std::uint32_
     block0.header.coverOffset[0] = offset_[0];
     const shared::CoverPlace middle{face, 0.5 * (rect.x + rect.z), 0.5 * (rect.y + rect.w)};
     const float value = shared::coverAt({&block0, words_.data()}, middle, 0);
-    const auto reach = static_cast<float>((rect.z - rect.x) * 0.5 * e) * dx / 255 + static_cast<float>((rect.w - rect.y) * 0.5 * e) * dy / 255 + 1e-5f;
+    const auto reach =
+        static_cast<float>((rect.z - rect.x) * 0.5 * e) * dx / 255 + static_cast<float>((rect.w - rect.y) * 0.5 * e) * dy / 255 + 1e-5f;
     return {std::max(range.lo, value - reach), std::min(range.hi, value + reach)};
   }
   // The neighbours' texels along the border: read from mip borders of every mip in use.

@@ -11,7 +11,8 @@ namespace welkin {
 
 Result<CoverPicture> loadCoverPicture(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return Error{fmt::format("{}: no such file; expected a PNG of the cloud cover", file.string())};
+  if (!std::filesystem::is_regular_file(file, error))
+    return Error{fmt::format("{}: no such file; expected a PNG of the cloud cover", file.string())};
   std::vector<unsigned char> encoded;
   if (lodepng::load_file(encoded, file.string()) != 0) return Error{fmt::format("{}: cannot be read", file.string())};
   lodepng::State state;
@@ -19,7 +20,8 @@ Result<CoverPicture> loadCoverPicture(const std::filesystem::path& file) {
   if (const unsigned code = lodepng_inspect(&width, &height, &state, encoded.data(), encoded.size()); code != 0)
     return Error{fmt::format("{}: not a PNG picture of cloud cover: {}", file.string(), lodepng_error_text(code))};
   if (width != 2 * height || width < 16 || width > 32768)
-    return Error{fmt::format("{}: {} x {} pixels; expected an equirectangular picture twice as wide as high, 16 to 32768 wide", file.string(), width, height)};
+    return Error{fmt::format("{}: {} x {} pixels; expected an equirectangular picture twice as wide as high, 16 to 32768 wide",
+                             file.string(), width, height)};
   std::vector<unsigned char> rgba;
   if (const unsigned code = lodepng::decode(rgba, width, height, encoded, LCT_RGBA, 8); code != 0)
     return Error{fmt::format("{}: broken PNG: {}", file.string(), lodepng_error_text(code))};
@@ -53,7 +55,9 @@ float CoverPicture::bilinear(float x, float yFree) const {
   const int x0 = ((static_cast<int>(fx) % width) + width) % width, x1 = (x0 + 1) % width;
   const int y0 = static_cast<int>(y), y1 = std::min(y0 + 1, height - 1);
   const float u = x - fx, v = y - static_cast<float>(y0);
-  const auto texel = [&](int i, int j) { return static_cast<float>(cover[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)]); };
+  const auto texel = [&](int i, int j) {
+    return static_cast<float>(cover[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)]);
+  };
   const float top = texel(x0, y0) + u * (texel(x1, y0) - texel(x0, y0));
   const float bottom = texel(x0, y1) + u * (texel(x1, y1) - texel(x0, y1));
   return (top + v * (bottom - top)) / 255;

@@ -20,12 +20,12 @@ std::vector<CloudLayer> defaultEarthLayers() {
   {
     CloudLayer l;  // fair-weather heaps: flat crisp bases, cauliflower tops
     l.name = "cumulus";
-    l.base_m = 950, l.top_m = 2900, l.baseFade_m = 70, l.topFade_m = 300;
+    l.base_m = 950, l.top_m = 3100, l.baseFade_m = 70, l.topFade_m = 500;
     l.extinction_per_m = 0.055;
     l.coverGain = 0.85, l.coverBias = -0.01;
     l.typeLow = 0.35, l.typeHigh = 1;
     l.cell_m = 3100, l.octaves = 7, l.gain = 0.5, l.billow = 0.6;
-    l.softness = 0.07, l.taper = 0.55, l.topFollowsCover = 0.55;
+    l.softness = 0.06, l.taper = 0.3, l.topFollowsCover = 0.45;
     layers.push_back(l);
   }
   {
@@ -33,10 +33,10 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "cumulonimbus";
     l.base_m = 900, l.top_m = 11500, l.baseFade_m = 150, l.topFade_m = 1200;
     l.extinction_per_m = 0.045;
-    l.coverGain = 1.5, l.coverBias = -0.8;
+    l.coverGain = 0.9, l.coverBias = -0.42;
     l.typeLow = 0.45, l.typeHigh = 1;
     l.cell_m = 12500, l.octaves = 9, l.gain = 0.5, l.billow = 0.55;
-    l.softness = 0.08, l.taper = 0.5, l.topFollowsCover = 0.85;
+    l.softness = 0.07, l.taper = 0.36, l.topFollowsCover = 0.3;
     layers.push_back(l);
   }
   {
@@ -44,10 +44,10 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "nimbostratus";
     l.base_m = 1800, l.top_m = 5200, l.baseFade_m = 500, l.topFade_m = 900;
     l.extinction_per_m = 0.014;
-    l.coverGain = 1.3, l.coverBias = -0.5;
+    l.coverGain = 1.1, l.coverBias = -0.42;
     l.typeLow = 0, l.typeHigh = 0.7;
     l.cell_m = 25000, l.octaves = 8, l.gain = 0.52, l.billow = 0.2;
-    l.softness = 0.3, l.taper = 0.3, l.topFollowsCover = 0.7;
+    l.softness = 0.22, l.taper = 0.4, l.topFollowsCover = 0.7;
     layers.push_back(l);
   }
   {
@@ -66,7 +66,7 @@ std::vector<CloudLayer> defaultEarthLayers() {
     l.name = "cirrus";
     l.base_m = 8200, l.top_m = 10200, l.baseFade_m = 800, l.topFade_m = 800;
     l.extinction_per_m = 0.0011;
-    l.coverGain = 1.2, l.coverBias = -0.04;
+    l.coverGain = 0.75, l.coverBias = -0.02;
     l.cell_m = 50000, l.octaves = 8, l.gain = 0.6, l.billow = 0.0;
     l.softness = 0.6, l.taper = 0.1;
     l.streak = 2, l.warp_m = 5000;

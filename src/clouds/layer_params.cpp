@@ -119,7 +119,8 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
   out.amplitude = static_cast<float>(amplitude);
   out.gain = static_cast<float>(layer.gain);
   out.billow = static_cast<float>(std::clamp(layer.billow, 0.0, 1.0));
-  out.restHigh = static_cast<float>(1 + double{out.billow} * (double{shared::kBillowScale} * (1 - double{shared::kNoiseAbsMean}) - 1) + 1e-3);
+  out.restHigh =
+      static_cast<float>(1 + double{out.billow} * (double{shared::kBillowScale} * (1 - double{shared::kNoiseAbsMean}) - 1) + 1e-3);
   out.invSoftness = static_cast<float>(1 / std::max(layer.softness, 1e-3));
   out.taper = static_cast<float>(layer.taper);
   out.topFollowsCover = static_cast<float>(std::clamp(layer.topFollowsCover, 0.0, 0.95));
@@ -130,7 +131,8 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
   fillThresholds(out, octaves);
 
   double variance = 0;
-  for (std::uint32_t k = 0; k < octaves; ++k) variance += std::pow(amplitude * std::pow(layer.gain, k), 2) * octaveVariance(double{out.billow});
+  for (std::uint32_t k = 0; k < octaves; ++k)
+    variance += std::pow(amplitude * std::pow(layer.gain, k), 2) * octaveVariance(double{out.billow});
   const double depth = octaves > 0 ? clumpDepth(out, root, octaves) : 0;
 
   for (std::uint32_t level = 0; level <= shared::kMaxDepth; ++level) {
@@ -141,8 +143,10 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
     double dropped = 0, amplitudeShown = 0;
     for (std::uint32_t k = 0; k < octaves; ++k) {
       const double a = amplitude * std::pow(layer.gain, k);
-      if (k < shown) amplitudeShown += a;
-      else dropped += a * a * octaveVariance(double{out.billow});
+      if (k < shown)
+        amplitudeShown += a;
+      else
+        dropped += a * a * octaveVariance(double{out.billow});
     }
     const double voxel_m = root.nodeSize_m(level) / shared::kBrickCells;
     // Over its height a voxel also sees the taper change: a uniform distribution, variance (range^2) / 12.

@@ -25,8 +25,8 @@ struct LayeredClouds::Box {
   Interval cover, type;
 };
 
-LayeredClouds::LayeredClouds(const std::vector<CloudLayer>& layers, std::optional<CoverMap> cover, const RootFrame& root, std::uint32_t seed,
-                             std::string note)
+LayeredClouds::LayeredClouds(const std::vector<CloudLayer>& layers, std::optional<CoverMap> cover, const RootFrame& root,
+                             std::uint32_t seed, std::string note)
     : root_(root), cover_(std::move(cover)), note_(std::move(note)) {
   const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(layers.size(), shared::kMaxCloudLayers));
   block_.header = makeCloudHeader(root, seed, count);
@@ -75,8 +75,10 @@ float LayeredClouds::maxExtinction() const {
 std::vector<std::uint32_t> LayeredClouds::shaderParams() const {
   std::vector<std::uint32_t> words(sizeof(block_) / 4);
   std::memcpy(words.data(), &block_, sizeof(block_));
-  if (cover_) words.insert(words.end(), cover_->words().begin(), cover_->words().end());
-  else words.push_back(0);
+  if (cover_)
+    words.insert(words.end(), cover_->words().begin(), cover_->words().end());
+  else
+    words.push_back(0);
   return words;
 }
 
@@ -91,7 +93,8 @@ void LayeredClouds::noiseBounds(const shared::CloudLayerParams& layer, const Box
     const std::uint32_t half = sizeShift > 0 ? 1u << (sizeShift - 1) : 0;
     middle = shared::warpedPosition({&block_, nullptr}, static_cast<std::uint32_t>(&layer - block_.layers), box.corner + half);
     const float h = std::ldexp(0.5f, static_cast<int>(sizeShift));
-    reach_steps = h + layer.warp_steps * std::min(2.0f, 3 * shared::kNoiseLipschitz * std::ldexp(h, -static_cast<int>(layer.warpShift))) + 2;
+    reach_steps =
+        h + layer.warp_steps * std::min(2.0f, 3 * shared::kNoiseLipschitz * std::ldexp(h, -static_cast<int>(layer.warpShift))) + 2;
   }
   lo = hi = 0;
   float amplitude = layer.amplitude, rest = 1;
@@ -143,7 +146,8 @@ Bounds LayeredClouds::layerBounds(std::uint32_t index, const Box& box) const {
   if (z0 >= layer.thickness_m) return {};
   const float fallStart = layer.thickness_m - layer.topFade_m;
   const float profileLo = std::min(shared::profileAt(view, index, z0), shared::profileAt(view, index, z1));
-  const float profileHi = z0 <= fallStart && z1 >= layer.baseFade_m ? 1 : std::max(shared::profileAt(view, index, z0), shared::profileAt(view, index, z1));
+  const float profileHi =
+      z0 <= fallStart && z1 >= layer.baseFade_m ? 1 : std::max(shared::profileAt(view, index, z0), shared::profileAt(view, index, z1));
   const auto height = [&](float z) { return std::clamp(z * layer.invThickness, 0.0f, 1.0f); };
 
   float nLo, nHi;
@@ -195,7 +199,8 @@ Bounds LayeredClouds::bounds(glm::uvec3 corner, std::uint32_t level) const {
   const Interval n1 = noiseInterval(corner, sizeShift, shift - 1, shift - 1, shared::octaveSeed(seed, 1));
   const auto sin2 = [](double z, double r2) { return static_cast<float>(std::clamp(z * z / std::max(r2, 1.0), 0.0, 1.0)); };
   const float rounding = 1e-4f;
-  box.type = {shared::typeFromNoise(n0.lo, n1.lo, sin2(farZ, near2)) - rounding, shared::typeFromNoise(n0.hi, n1.hi, sin2(nearZ, far2)) + rounding};
+  box.type = {shared::typeFromNoise(n0.lo, n1.lo, sin2(farZ, near2)) - rounding,
+              shared::typeFromNoise(n0.hi, n1.hi, sin2(nearZ, far2)) + rounding};
 
   Bounds bounds;
   for (std::uint32_t i = 0; i < block_.header.layerCount; ++i) {

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "welkin/clouds/layers_source.h"
-#include "welkin/clouds/sphere_source.h"
 #include "welkin/clouds/cover_map.h"
 #include "welkin/clouds/default_layers.h"
 #include "welkin/clouds/density_source.h"
+#include "welkin/clouds/layers_source.h"
+#include "welkin/clouds/sphere_source.h"
 
 namespace welkin {
 namespace {
@@ -34,7 +34,8 @@ CoverMap bakePicture(const CoverPicture& picture, const ProceduralWeather& weath
 Result<std::unique_ptr<DensitySource>> makeLayers(const LayersSource& source, const Scene& scene, const RootFrame& root) {
   const auto layers = source.layers.empty() ? defaultEarthLayers() : source.layers;
   if (layers.size() > shared::kMaxCloudLayers)
-    return Error{fmt::format("{}: /clouds/sources/0/layers: {} layers; expected at most {}", scene.file.string(), layers.size(), shared::kMaxCloudLayers)};
+    return Error{fmt::format("{}: /clouds/sources/0/layers: {} layers; expected at most {}", scene.file.string(), layers.size(),
+                             shared::kMaxCloudLayers)};
   const ProceduralWeather weather(scene.quality.seed);
   std::string note;
   std::optional<CoverMap> cover;
@@ -58,12 +59,14 @@ Result<std::unique_ptr<DensitySource>> makeLayers(const LayersSource& source, co
 }  // namespace
 
 Result<std::unique_ptr<DensitySource>> makeDensitySource(const Scene& scene, const RootFrame& root) {
-  if (!scene.clouds || scene.clouds->sources.empty()) return Error{fmt::format("{}: /clouds/sources: no cloud source", scene.file.string())};
+  if (!scene.clouds || scene.clouds->sources.empty())
+    return Error{fmt::format("{}: /clouds/sources: no cloud source", scene.file.string())};
   if (scene.clouds->sources.size() > 1)
     return Error{fmt::format("{}: /clouds/sources/1: expected one source; several (combine: {}) are not supported", scene.file.string(),
                              scene.clouds->combineMax ? "max" : "add")};
   const CloudSource& source = scene.clouds->sources.front();
-  if (const auto* sphere = std::get_if<SphereSource>(&source)) return std::unique_ptr<DensitySource>(std::make_unique<SphereCloud>(*sphere, root));
+  if (const auto* sphere = std::get_if<SphereSource>(&source))
+    return std::unique_ptr<DensitySource>(std::make_unique<SphereCloud>(*sphere, root));
   if (const auto* slab = std::get_if<SlabSource>(&source)) return LayeredClouds::slab(*slab, root);
   return makeLayers(std::get<LayersSource>(source), scene, root);
 }

@@ -26,8 +26,8 @@ Interval noiseInterval(glm::uvec3 corner, std::uint32_t sizeShift, std::uint32_t
                       shared::cellFraction(corner.z, zShift) + half[2]};
   float g[8][3], v[8];  // gradients and their planes' values at the centre, corner index x + 2y + 4z
   for (std::uint32_t c = 0; c < 8; ++c) {
-    const std::uint32_t h = shared::mixBits(shared::latticeX(corner.x, shift, c & 1u) ^ seed ^ shared::latticeY(corner.y, shift, (c >> 1) & 1u) ^
-                                            shared::latticeZ(corner.z, zShift, c >> 2));
+    const std::uint32_t h = shared::mixBits(shared::latticeX(corner.x, shift, c & 1u) ^ seed ^
+                                            shared::latticeY(corner.y, shift, (c >> 1) & 1u) ^ shared::latticeZ(corner.z, zShift, c >> 2));
     for (std::uint32_t a = 0; a < 3; ++a) g[c][a] = static_cast<float>((h >> (10 * a)) & 1023u) - 511.5f;
     g[c][2] = static_cast<float>(h >> 22) - 511.5f;
     v[c] = 0;
@@ -36,8 +36,7 @@ Interval noiseInterval(glm::uvec3 corner, std::uint32_t sizeShift, std::uint32_t
   float f[3], reach = 0;
   for (int a = 0; a < 3; ++a) f[a] = shared::noiseFade(t[a]);
   float centre = 0;
-  for (int c = 0; c < 8; ++c)
-    centre += v[c] * (c & 1 ? f[0] : 1 - f[0]) * (c & 2 ? f[1] : 1 - f[1]) * (c & 4 ? f[2] : 1 - f[2]);
+  for (int c = 0; c < 8; ++c) centre += v[c] * (c & 1 ? f[0] : 1 - f[0]) * (c & 2 ? f[1] : 1 - f[1]) * (c & 4 ? f[2] : 1 - f[2]);
   // n(x) = sum w_c(x) (v_c + g_c . (x - centre)). The planes move by at most max |g| h along each axis (weights add up to 1); the
   // weights then move between the centre's values: along an axis by f' times the greatest difference over one of its four edges.
   for (int a = 0; a < 3; ++a) {
@@ -49,7 +48,8 @@ Interval noiseInterval(glm::uvec3 corner, std::uint32_t sizeShift, std::uint32_t
     reach += half[a] * (steepest + fadeSlope(t[a] - half[a], t[a] + half[a]) * difference);
   }
   const float slack = 1e-5f;  // rounding of the sum of eight terms
-  return {std::clamp((centre - reach) * shared::kNoiseScale - slack, -1.0f, 1.0f), std::clamp((centre + reach) * shared::kNoiseScale + slack, -1.0f, 1.0f)};
+  return {std::clamp((centre - reach) * shared::kNoiseScale - slack, -1.0f, 1.0f),
+          std::clamp((centre + reach) * shared::kNoiseScale + slack, -1.0f, 1.0f)};
 }
 
 Interval billowInterval(Interval n, float billow) {

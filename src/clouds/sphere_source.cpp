@@ -8,7 +8,8 @@ namespace welkin {
 
 SphereCloud::SphereCloud(const SphereSource& sphere, const RootFrame& root) {
   const glm::uvec3 centre = root.toFixed(sphere.centre_m);
-  params_ = {centre.x, centre.y, centre.z, static_cast<float>(sphere.radius_m * root.stepsPerMetre()), static_cast<float>(sphere.extinction_per_m)};
+  params_ = {centre.x, centre.y, centre.z, static_cast<float>(sphere.radius_m * root.stepsPerMetre()),
+             static_cast<float>(sphere.extinction_per_m)};
   const double altitude = glm::length(sphere.centre_m) - root.planetRadius_m;
   base_m_ = altitude - sphere.radius_m;
   top_m_ = altitude + sphere.radius_m;
@@ -22,7 +23,8 @@ std::vector<std::uint32_t> SphereCloud::shaderParams() const {
 
 Bounds SphereCloud::bounds(glm::uvec3 corner, std::uint32_t level) const {
   const double size = std::ldexp(1.0, 32 - static_cast<int>(level));
-  const double centre[3] = {static_cast<double>(params_.centreX), static_cast<double>(params_.centreY), static_cast<double>(params_.centreZ)};
+  const double centre[3] = {static_cast<double>(params_.centreX), static_cast<double>(params_.centreY),
+                            static_cast<double>(params_.centreZ)};
   double near2 = 0, far2 = 0;
   for (int i = 0; i < 3; ++i) {
     const double a = static_cast<double>(corner[i]) - centre[i], b = a + size;
@@ -38,7 +40,8 @@ Bounds SphereCloud::bounds(glm::uvec3 corner, std::uint32_t level) const {
   const double hi = std::max(value(near, narrow), value(near, wide)), lo = std::min(value(far, narrow), value(far, wide));
   if (hi <= 0) return {};
   if (lo >= 1) return {params_.extinction_per_m, params_.extinction_per_m};
-  return {params_.extinction_per_m * static_cast<float>(std::max(0.0, lo - slack)), params_.extinction_per_m * static_cast<float>(std::min(1.0, hi + slack))};
+  return {params_.extinction_per_m * static_cast<float>(std::max(0.0, lo - slack)),
+          params_.extinction_per_m * static_cast<float>(std::min(1.0, hi + slack))};
 }
 
 }  // namespace welkin

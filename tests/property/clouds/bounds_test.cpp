@@ -41,7 +41,8 @@ void expectContained(const DensitySource& source, std::uint32_t seed, int nodes,
   for (int i = 0; i < nodes; ++i) {
     const std::uint32_t level = random() % 19;
     const double h = source.base_m() - 500 + (source.top_m() - source.base_m() + 1000) * static_cast<double>(random() % 1000) / 1000;
-    const glm::uvec3 inside = kRoot.toFixed(around == glm::dvec3{} ? randomDirection(random) * (kRoot.planetRadius_m + h) : around + 2.2e4 * randomDirection(random));
+    const glm::uvec3 inside = kRoot.toFixed(around == glm::dvec3{} ? randomDirection(random) * (kRoot.planetRadius_m + h)
+                                                                   : around + 2.2e4 * randomDirection(random));
     const glm::uvec3 corner = shared::nodeCorner(inside, level);
     const Bounds bounds = source.bounds(corner, level);
     ASSERT_LE(bounds.lo, bounds.hi);
@@ -49,7 +50,8 @@ void expectContained(const DensitySource& source, std::uint32_t seed, int nodes,
       // a brick of this or a deeper level inside the node, and one of its corner samples, the far side included
       const std::uint32_t deep = std::min(level + (random() % 5) * (random() % 3), shared::kMaxDepth);
       glm::uvec3 q = inside;
-      if (k % 2) for (int a = 0; a < 3; ++a) q[a] = corner[a] + (random() & shared::levelMask(level));
+      if (k % 2)
+        for (int a = 0; a < 3; ++a) q[a] = corner[a] + (random() & shared::levelMask(level));
       const glm::uvec3 p = shared::brickSample(shared::nodeCorner(q, deep), deep, glm::uvec3(random() % 8, random() % 8, random() % 8));
       const float density = source.density(p, deep);
       ASSERT_GE(density, bounds.lo) << "seed " << seed << " node " << i << " level " << level << " sample level " << deep;
@@ -107,7 +109,8 @@ TEST(Bounds, ClearSkyIsSeenAndCallsAreQuick) {
   std::vector<std::pair<glm::uvec3, std::uint32_t>> nodes;
   for (int i = 0; i < 20000; ++i) {
     const std::uint32_t level = 9 + random() % 8;
-    const glm::uvec3 corner = shared::nodeCorner(kRoot.toFixed(randomDirection(random) * (kRoot.planetRadius_m + 1000 + random() % 2000)), level);
+    const glm::uvec3 corner =
+        shared::nodeCorner(kRoot.toFixed(randomDirection(random) * (kRoot.planetRadius_m + 1000 + random() % 2000)), level);
     nodes.emplace_back(corner, level);
     const float cover = shared::coverAt(source.view(), shared::coverPlace(corner), 0);
     if (cover > 0) continue;
@@ -118,7 +121,8 @@ TEST(Bounds, ClearSkyIsSeenAndCallsAreQuick) {
   const auto start = std::chrono::steady_clock::now();
   int empty = 0;
   for (const auto& [corner, level] : nodes) empty += source.bounds(corner, level).empty();
-  const double us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count() / static_cast<double>(nodes.size());
+  const double us =
+      std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count() / static_cast<double>(nodes.size());
   std::printf("%.2f us a call, %d of %zu nodes empty, %d of %d clear nodes found\n", us, empty, nodes.size(), clearFound, clear);
   EXPECT_LT(us, 100);  // measured 2; room for sanitizers and a busy machine
 }

@@ -55,7 +55,8 @@ TEST(Cover, FollowsTheBakedFunction) {
 TEST(Cover, GoesOnWithoutStepOrKinkAcrossFaceEdgesAndCorners) {
   // noise in each texel: the hardest field for a seam
   const Baked baked(64, [](glm::dvec3 d) {
-    return static_cast<float>(shared::mixBits(static_cast<std::uint32_t>(d.x * 1e6) * 31 + static_cast<std::uint32_t>(d.y * 1e6 + 4e6))) * 0x1p-32f;
+    return static_cast<float>(shared::mixBits(static_cast<std::uint32_t>(d.x * 1e6) * 31 + static_cast<std::uint32_t>(d.y * 1e6 + 4e6))) *
+           0x1p-32f;
   });
   Random random(2);
   std::uniform_real_distribution<double> u(-1, 1);
@@ -89,7 +90,8 @@ TEST(Cover, GoesOnWithoutStepOrKinkAcrossFaceEdgesAndCorners) {
 }
 
 TEST(Cover, RangesContainTheCover) {
-  const Baked baked(128, [](glm::dvec3 d) { return static_cast<float>(std::max(0.0, std::sin(40 * d.x) * std::sin(31 * d.y) * std::cos(22 * d.z))); });
+  const Baked baked(
+      128, [](glm::dvec3 d) { return static_cast<float>(std::max(0.0, std::sin(40 * d.x) * std::sin(31 * d.y) * std::cos(22 * d.z))); });
   Random random(3);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> u(0, 1);
@@ -140,7 +142,8 @@ class Pictures : public testing::Test {
   void SetUp() override { std::filesystem::create_directories(folder); }
   void TearDown() override { std::filesystem::remove_all(folder); }
   std::filesystem::path write(const std::string& name, const std::vector<unsigned char>& bytes) {
-    std::ofstream(folder / name, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(folder / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     return folder / name;
   }
   static std::vector<unsigned char> picture(unsigned width, unsigned height) {
@@ -159,7 +162,7 @@ class Pictures : public testing::Test {
 TEST_F(Pictures, CoverIsTheAlphaAndColumnZeroIs180West) {
   const auto result = loadCoverPicture(write("ok.png", picture(64, 32)));
   ASSERT_TRUE(result.ok()) << result.error().message;
-  EXPECT_NEAR(result->at({0, -1, 0}), 0, 1e-6);          // 90 W
+  EXPECT_NEAR(result->at({0, -1, 0}), 0, 1e-6);           // 90 W
   EXPECT_NEAR(result->at({0, 1, 0}), 200.0 / 255, 1e-6);  // 90 E
 }
 
@@ -167,7 +170,8 @@ TEST_F(Pictures, BrokenOnesGetOneLine) {
   auto bytes = picture(64, 32);
   const auto cut = write("cut.png", {bytes.begin(), bytes.begin() + static_cast<long>(bytes.size() / 2)});
   expectLine(loadCoverPicture(cut).error().message, cut, "broken PNG");
-  const auto text = write("text.png", {'h', 'e', 'l', 'l', 'o', ' ', 'c', 'l', 'o', 'u', 'd', 's', 'h', 'e', 'l', 'l', 'o', ' ', 'c', 'l', 'o', 'u', 'd', 's', ' ', ' ', ' ', ' ', ' ', ' ', ' ', ' ', ' ', ' '});
+  const auto text = write("text.png", {'h', 'e', 'l', 'l', 'o', ' ', 'c', 'l', 'o', 'u', 'd', 's', 'h', 'e', 'l', 'l', 'o',
+                                       ' ', 'c', 'l', 'o', 'u', 'd', 's', ' ', ' ', ' ', ' ', ' ', ' ', ' ', ' ', ' ', ' '});
   expectLine(loadCoverPicture(text).error().message, text, "not a PNG");
   const auto nothing = write("nothing.png", {});
   expectLine(loadCoverPicture(nothing).error().message, nothing, "not a PNG");

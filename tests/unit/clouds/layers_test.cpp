@@ -79,7 +79,8 @@ TEST(Layers, AltitudeIsRightNearTheGround) {
     const double h = std::pow(10.0, static_cast<double>(random() % 1000) / 200) * (i % 2 ? 1 : -1);  // to +-100 km
     const glm::uvec3 p = kRoot.toFixed(randomDirection(random) * (kRoot.planetRadius_m + h));
     const double exact = glm::length(kRoot.toPlanet(p)) - kRoot.planetRadius_m;
-    EXPECT_NEAR(static_cast<double>(shared::cloudAltitude(source.view(), p)), exact, std::max(0.001, 4e-7 * std::abs(exact)));  // a few float roundings
+    EXPECT_NEAR(static_cast<double>(shared::cloudAltitude(source.view(), p)), exact,
+                std::max(0.001, 4e-7 * std::abs(exact)));  // a few float roundings
   }
 }
 
@@ -149,10 +150,11 @@ TEST(Layers, BrokenCloudLetsThroughTheSameLightOnEveryLevel) {
       const Columns truth = columns(source, 15, 400, layer.top_m);
       for (const std::uint32_t level : {7u, 9u, 10u, 12u}) {
         const Columns mean = columns(source, level, 200, layer.top_m);
-        // A model of unresolved clumps, not an identity. It is worst, 0.22, where a level shows just one octave of heaps; the means' standard
-        // errors are 0.02 and 0.03. Without it transmittance at level 8 is 0.0 to 0.1 instead of 0.5 for low cloud.
+        // A model of unresolved clumps, not an identity. It is worst, 0.22, where a level shows just one octave of heaps; the means'
+        // standard errors are 0.02 and 0.03. Without it transmittance at level 8 is 0.0 to 0.1 instead of 0.5 for low cloud.
         EXPECT_NEAR(mean.transmittance, truth.transmittance, 0.25) << layer.name << " cover " << c << " level " << level;
-        std::printf("%-15s cover %.2f level %2u: T %.3f (%.3f) depth %.2f (%.2f)\n", layer.name.c_str(), c, level, mean.transmittance, truth.transmittance, mean.depth, truth.depth);
+        std::printf("%-15s cover %.2f level %2u: T %.3f (%.3f) depth %.2f (%.2f)\n", layer.name.c_str(), c, level, mean.transmittance,
+                    truth.transmittance, mean.depth, truth.depth);
       }
     }
   }

@@ -1,8 +1,8 @@
-#include "welkin/shared/noise.glsl.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
+
+#include "welkin/shared/noise.glsl.h"
 
 namespace welkin::shared {
 namespace {
@@ -17,9 +17,7 @@ struct Random {
   result_type operator()() { return static_cast<result_type>(engine()); }
 };
 
-uvec3 randomPosition(Random& random) {
-  return {random(), random(), random()};
-}
+uvec3 randomPosition(Random& random) { return {random(), random(), random()}; }
 
 TEST(Noise, RangeMeanVarianceAndBillowMean) {
   Random random(5);
@@ -76,7 +74,8 @@ TEST(Noise, NeighbouringLatticePointsAreUncorrelated) {
   int flips[32] = {};
   constexpr int kPairs = 20000;
   for (uint i = 0; i < kPairs; ++i) {
-    const uint a = mixBits(latticeX(i << 4, 4, 0) ^ latticeY(77u << 4, 4, 0)), b = mixBits(latticeX(i << 4, 4, 1) ^ latticeY(77u << 4, 4, 0));
+    const uint a = mixBits(latticeX(i << 4, 4, 0) ^ latticeY(77u << 4, 4, 0)),
+               b = mixBits(latticeX(i << 4, 4, 1) ^ latticeY(77u << 4, 4, 0));
     for (uint k = 0; k < 32; ++k) flips[k] += static_cast<int>(((a ^ b) >> k) & 1u);
   }
   for (int f : flips) EXPECT_NEAR(f, kPairs / 2, 5 * 71);  // five standard errors of sqrt(N) / 2 = 71

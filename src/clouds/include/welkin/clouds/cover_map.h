@@ -65,7 +65,9 @@ class CoverMap {
   std::uint32_t mips_ = 0;
   std::uint32_t edge_[shared::kCoverMips] = {}, offset_[shared::kCoverMips] = {};
   std::vector<std::uint32_t> words_;
-  struct Cell { std::uint8_t lo, hi; };
+  struct Cell {
+    std::uint8_t lo, hi;
+  };
   std::vector<std::vector<Cell>> pyramid_;  // [k]: blocks of 2^(k+1) texels of mip 0's interior, 6 faces
 };
 

@@ -10,7 +10,8 @@ namespace welkin {
 
 class LayeredClouds final : public DensitySource {
  public:
-  LayeredClouds(const std::vector<CloudLayer>& layers, std::optional<CoverMap> cover, const RootFrame& root, std::uint32_t seed, std::string note);
+  LayeredClouds(const std::vector<CloudLayer>& layers, std::optional<CoverMap> cover, const RootFrame& root, std::uint32_t seed,
+                std::string note);
   // A uniform shell.
   static std::unique_ptr<DensitySource> slab(const SlabSource& slab, const RootFrame& root);
 
