@@ -2,9 +2,9 @@
 // A picture of the difference that a person sees when flipping between two pictures, after Andersson et al., "FLIP: A Difference
 // Evaluator for Alternating Images" (2020): contrast sensitivity, a perceptual colour distance, and edges and points.
 // Written from the paper; the filters are cut off at 3 sigma and the numbers agree with the authors' program only roughly.
-#include <vector>
-
 #include <fmt/format.h>  // before shared headers, whose macro F its templates would meet
+
+#include <vector>
 
 #include "welkin/core/result.h"
 #include "welkin/render/renderer.h"

@@ -1,8 +1,8 @@
 #pragma once
 // How far two pictures are apart. Numbers with _255 are on the scale 0..255 of a display.
-#include <cstdint>
-
 #include <fmt/format.h>  // before shared headers, whose macro F its templates would meet
+
+#include <cstdint>
 
 #include "welkin/core/result.h"
 #include "welkin/render/renderer.h"
