@@ -12,6 +12,10 @@ constexpr double kWider = 1.2, kWiderTan = 0.087;
 // seventh of a node; two of them.
 constexpr double kLeakNodes = 2.0 / 7.0;
 
+// Penalties rise over this much beyond the border, so that a node on it does not come and go with each tremble of the camera: about
+// 6 degrees of turning; 130 km of ground for an Earth.
+constexpr double kOutsideRamp = 0.1, kHiddenRamp_rad = 0.02;
+
 }  // namespace
 
 NodeView::NodeView(const RootFrame& root, const SelectionView& view) : root_(root), view_(view) {
@@ -28,21 +32,23 @@ NodeView::NodeView(const RootFrame& root, const SelectionView& view) : root_(roo
   planeY_ = glm::dvec3(tanY, 1, 0) / std::sqrt(1 + tanY * tanY);
 }
 
-bool NodeView::outsidePicture(glm::dvec3 centre, double radius_m) const {
+// How far the sphere is outside the side planes; not over 0: it may be in the picture.
+double NodeView::beyondPicture_m(glm::dvec3 centre, double radius_m) const {
   const double ahead = glm::dot(centre, view_.forward);
-  return ahead < -radius_m || std::abs(glm::dot(centre, view_.right)) * planeX_.y - ahead * planeX_.x > radius_m ||
-         std::abs(glm::dot(centre, view_.up)) * planeY_.y - ahead * planeY_.x > radius_m;
+  return std::max(std::abs(glm::dot(centre, view_.right)) * planeX_.y - ahead * planeX_.x,
+                  std::abs(glm::dot(centre, view_.up)) * planeY_.y - ahead * planeY_.x) -
+         radius_m;
 }
 
 // From radius r one sees a point at radius q over a sphere R up to acos(R/r) + acos(R/q) away, as angles at the centre.
-bool NodeView::behindHorizon(glm::dvec3 centre, double radius_m, double size_m) const {
+double NodeView::beyondHorizon_rad(glm::dvec3 centre, double radius_m, double size_m) const {
   const double c = glm::length(centre);
-  if (c <= radius_m) return false;
+  if (c <= radius_m) return 0;
   const double cosine = glm::dot(centre, zenith_) / c;
-  if (cosine >= cosHorizon_) return false;
+  if (cosine >= cosHorizon_) return 0;
   const double highest_m = std::min(root_.planetRadius_m + view_.cloudTop_m + size_m * kLeakNodes, c + radius_m);
   const double reach_rad = horizonAngle_rad_ + std::acos(std::min(1.0, root_.planetRadius_m / highest_m)) + slackAngle_rad_;
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) - std::asin(radius_m / c) > reach_rad;
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) - std::asin(radius_m / c) - reach_rad;
 }
 
 NodeView::Seen NodeView::look(const NodeAddress& node, const Seen& above) const {
@@ -57,8 +63,15 @@ NodeView::Seen NodeView::look(const NodeAddress& node, const Seen& above) const 
   Seen seen;
   seen.distance_m = std::max(distance - view_.slack_m, view_.near_m);
   const double radius_m = half_m * std::sqrt(3.0);
-  seen.outside = above.outside || outsidePicture(offset, radius_m + view_.slack_m);
-  seen.hidden = above.hidden || behindHorizon(centre, radius_m, size_m);
+  // A child's sphere is within its parent's: what is beyond stays beyond.
+  const double outside_m = beyondPicture_m(offset, radius_m + view_.slack_m);
+  seen.outside = above.outside || outside_m > 0;
+  const double outside = std::clamp(outside_m / (kOutsideRamp * glm::length(offset)), 0.0, 1.0);
+  const double hidden_rad = above.deep ? kHiddenRamp_rad : beyondHorizon_rad(centre, radius_m, size_m);
+  seen.deep = hidden_rad >= kHiddenRamp_rad;
+  seen.hidden = above.hidden || hidden_rad > 0;
+  const double hidden = std::clamp(hidden_rad / kHiddenRamp_rad, 0.0, 1.0);
+  seen.penalty = (1 + (kOutsidePenalty - 1) * outside) * (1 + (kHiddenPenalty - 1) * hidden);
   return seen;
 }
 

@@ -91,7 +91,7 @@ class Run {
              const NodeView::Seen& above, float parentKey) {
     const NodeView::Seen seen = look_.look({corner, level}, above);
     const double raw = seen.distance_m / root_.nodeSize_m(level + 1);
-    double key = raw * (seen.outside ? kOutsidePenalty : 1) * (seen.hidden ? kHiddenPenalty : 1);
+    double key = raw * seen.penalty;
     key = std::max(key, static_cast<double>(parentKey));  // never before its parent, whatever the rounding
     Candidate c{corner,
                 level,
@@ -102,7 +102,7 @@ class Run {
                 static_cast<std::uint8_t>(octant),
                 seen.outside,
                 seen.hidden,
-                0};
+                seen.deep};
     const bool exists = childrenOf(c).valid();
     const float biased = exists ? static_cast<float>(key / kHysteresis) : c.key;
     const std::uint64_t entry = packEntry(biased, out_.candidates.size());
@@ -120,7 +120,7 @@ class Run {
   }
 
   void accept(const Candidate& c) {
-    const NodeView::Seen seen{0, c.outside != 0, c.hidden != 0};
+    const NodeView::Seen seen{0, c.outside != 0, c.hidden != 0, c.deep != 0, 1};
     const GroupIndex existing = childrenOf(c);
     if (!existing.valid() && out_.added.size() >= settings_.maxNewGroups) {
       out_.complete = false;

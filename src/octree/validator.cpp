@@ -1,7 +1,7 @@
 // fmt first: the shared prelude's macro F is also the name of its template parameters.
-#include <fmt/format.h>
-
 #include "welkin/octree/validator.h"
+
+#include <fmt/format.h>
 
 #include "welkin/octree/max_code.h"
 

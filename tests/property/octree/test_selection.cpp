@@ -130,14 +130,46 @@ TEST_P(SelectionOf, ATremblingCameraChangesNothing) {
     obey(tree, s);
   }
   const glm::dvec3 rest = view.position_m;
-  // A thousandth of the distance to the nearest that could be refined, at most a metre: far below the hysteresis of 15 %.
+  // What is on the edge is at least K * (finest child) / 8 away (penalties of 2 and 4). A step of 0.00045 of K * child on each axis is
+  // under 0.63 % of that; the key changes by as much, and by ten times it where the penalty doubles over a tenth of the distance: 7 % for a
+  // node, 14 % between two, and the hysteresis is 15 %.
+  const double tremble_m = 0.00045 * s.detail * kRoot.nodeSize_m(settings.depth);
   for (int i = 0; i < 30; ++i) {
-    std::uniform_real_distribution<> unit(-1, 1);
+    std::uniform_real_distribution<> unit(-tremble_m, tremble_m);
     view.position_m = rest + glm::dvec3(unit(random), unit(random), unit(random));
     select(tree, kRoot, view, settings, bounds, s);
     ASSERT_TRUE(s.added.empty());
     for (std::uint32_t g = 1; g < s.keep.size(); ++g) ASSERT_EQ(s.keep[g] != 0, tree.isLive({g}));
   }
+}
+
+TEST_P(SelectionOf, AGroupStaysUntilItsKeyIsOverTheHysteresis) {
+  const SelectionView view = viewAt(random);
+  settings.detailLimit = 1.5;
+  settings.brickCapacity = settings.groupCapacity = 60000;
+  Tree wide{settings.groupCapacity, settings.brickCapacity};
+  wide.plantRoot(bounds({}, 0));
+  Selection s;
+  for (int i = 0; i < 20 && (i == 0 || !s.added.empty()); ++i) {
+    select(wide, kRoot, view, settings, bounds, s);
+    obey(wide, s);
+  }
+  ASSERT_TRUE(s.complete && s.added.empty());
+  const auto dropped = [&](double limit) {
+    settings.detailLimit = limit;
+    select(wide, kRoot, view, settings, bounds, s);
+    EXPECT_TRUE(s.added.empty());
+    bool any = false;
+    for (std::uint32_t g = 1; g < s.keep.size(); ++g) {
+      if (wide.isLive({g}) && s.keep[g]) {
+        EXPECT_LT(s.key[g], limit * kHysteresis * 1.0001);  // float keys
+      }
+      if (wide.isLive({g}) && !s.keep[g]) any = true;
+    }
+    return any;
+  };
+  EXPECT_FALSE(dropped(1.5 / 1.14));  // all have keys under 1.5
+  EXPECT_TRUE(dropped(1.5 / 2));
 }
 
 // Hidden and outside are promises: no ray of the picture may reach cloud in such a node.

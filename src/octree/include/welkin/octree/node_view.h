@@ -7,6 +7,9 @@
 
 namespace welkin {
 
+inline constexpr double kOutsidePenalty = 2;  // outside the picture
+inline constexpr double kHiddenPenalty = 4;   // behind the planet
+
 // A camera for selection. It may move until what is decided now is on the screen: it is then within slack_m of position_m.
 struct SelectionView {
   glm::dvec3 position_m{};
@@ -23,6 +26,8 @@ class NodeView {
     double distance_m = 0;  // at most that to any cloud in the node, and at least near_m
     bool outside = false;   // of the picture, enlarged a little
     bool hidden = false;    // behind the planet's horizon
+    bool deep = false;      // so far behind it that the whole penalty holds, for all of its children too
+    double penalty = 1;     // on the key: 1 if visible, rising beyond the borders to the penalties below
     bool visible() const { return !outside && !hidden; }
   };
 
@@ -33,8 +38,8 @@ class NodeView {
   double farDistance_m(const NodeAddress& node) const;
 
  private:
-  bool outsidePicture(glm::dvec3 centre_view, double radius_m) const;
-  bool behindHorizon(glm::dvec3 centre_planet, double radius_m, double size_m) const;
+  double beyondPicture_m(glm::dvec3 centre_view, double radius_m) const;
+  double beyondHorizon_rad(glm::dvec3 centre_planet, double radius_m, double size_m) const;
 
   RootFrame root_;
   SelectionView view_;

@@ -13,8 +13,6 @@
 namespace welkin {
 
 inline constexpr double kHysteresis = 1.15;     // advantage of a group that exists
-inline constexpr double kOutsidePenalty = 2;    // outside the picture
-inline constexpr double kHiddenPenalty = 4;     // behind the planet
 inline constexpr double kGreatestDetail = 1e6;  // K when nothing limits it
 
 struct SelectionSettings {
@@ -50,7 +48,7 @@ struct Selection {
     std::uint32_t node;  // existing node, or kNoIndex
     std::uint32_t parentAdded;
     float key, raw;
-    std::uint8_t octant, outside, hidden, pad;
+    std::uint8_t octant, outside, hidden, deep;
   };
   std::vector<Candidate> candidates;
   std::vector<std::uint64_t> heap, later;
