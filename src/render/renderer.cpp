@@ -266,6 +266,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
   const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
   std::uint64_t made = 0;
+  const std::uint64_t first = r.step;  // edits asked for before answer to another view: they are applied, but say nothing about this one
   for (int i = 0; i < kMostSettleSteps; ++i) {
     if (r.asked.empty()) r.ask(frame, kSettleBricks, true);
     FrameEdits edits = r.streamer->take(r.asked.front());
@@ -279,7 +280,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     const double left = r.last.stats.pendingBricks;
     if (progress && !progress(double(made) / std::max(1.0, double(made) + left))) break;
-    if (r.last.stats.settled && generate.empty() && r.asked.empty()) break;
+    if (r.last.frame >= first && r.last.stats.settled && generate.empty() && r.asked.empty()) break;
   }
   r.clouds->forget();
   stats.passes = r.timer.collect();
