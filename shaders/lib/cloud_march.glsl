@@ -1,4 +1,5 @@
-// The march of one view ray through the clouds: highest empty ancestors are jumped over, a brick is integrated in analytic segments.
+// The march of one view ray through the clouds: highest empty ancestors are jumped over, of a brick only the altitudes that its data
+// fills are integrated, in segments that are analytic for linear density.
 #include "welkin/shared/camera.glsl.h"
 #include "welkin/shared/cloud_light.glsl.h"
 #include "lib/walk.glsl"
@@ -10,13 +11,12 @@ struct CloudRay {
   float transmittance;
   float distance_m;     // from the camera, weighted by what each point adds to opacity; of the ground or the sky if nothing is met
   uint cells, samples;  // look-ups, brick samples
-  bool hole;
 };
 
 const float kOpaqueTransmittance = 1.0 / 512.0;
 const int kMaxCells = 4096;         // an opaque or left ray ends long before; software GL stops at 65535 turns in all
-const float kSkyDistance_m = 1e12;     // what is not there moves with the camera: only rotation reprojects it
-const float kThinBrick = 0.1;       // optical depth under which one segment serves a brick
+const float kSkyDistance_m = 1e12;  // what is not there moves with the camera: only rotation reprojects it
+const float kThinShare = 0.22;      // of the step: optical depth under which one segment serves a brick (0.1 at step 0.45)
 
 struct Segment { float near, far; };
 
@@ -39,84 +39,98 @@ Segment cloudSegment(dvec3 position, double altitude, double r, double radius, v
 }
 
 CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, vec3 dir, float ground_m, CloudPhases phases) {
-  CloudRay ray = CloudRay(0.0, 0.0, 0.0, 1.0, 0.0, 0u, 0u, false);
+  CloudRay ray = CloudRay(0.0, 0.0, 0.0, 1.0, ground_m >= 0.0 ? ground_m : kSkyDistance_m, 0u, 0u);
   Segment segment = cloudSegment(position, altitude, r, radius, dir, ground_m);
-  ray.distance_m = ground_m >= 0.0 ? ground_m : kSkyDistance_m;
   if (segment.near >= segment.far) return ray;
   Walk walk = startWalk(position + dvec3(dir) * double(segment.near), dir);
   float t = 0.0, end = segment.far - segment.near;
-  float weight = 0.0, weighted = 0.0;
-  for (int visit = 0; visit < kMaxCells && t < end; ++visit) {
-    float rootOverDistance = tree.rootSize_m / max(segment.near + t, 1e-3);
-    uvec3 p = walkTo(walk, t);
-    DetailLevel detail = detailAt(tree.detail * rootOverDistance, tree.depth);
-    uint mapLevel = mapLevelAt(rootOverDistance, tree.mapBase, tree.depth);
-    uint word = lookUp(p, detail.level, mapLevel);
-    ray.cells++;
-    uint level = wordLevel(word);
-    uint parent = kZeroBrick;
-    uint parentLevel = level;
-    bool empty = wordEmpty(word);
-    uint maxCode = wordMaxCode(word);
-    if (detail.parentWeight > 0.0 && level == detail.level && level > 0u) {
-      uint parentWord = lookUp(p, level - 1u, mapLevel);
-      ray.cells++;
-      parent = wordBrick(parentWord);
-      parentLevel = wordLevel(parentWord);
-      empty = wordEmpty(parentWord);
-      maxCode = wordMaxCode(parentWord);
-      if (empty) level = parentLevel;
-    }
-    float next = min(t + nodeExit(p, level, walk.dirSteps, walk.metrePerStep) + pastExit(segment.near + t), end);
-    if (!empty) {
-      float span = next - t;
-      float bound = maxCodeValue(maxCode) * tree.maxExtinction_per_m * span;
-      float inverseSize = 7.0 / levelSteps(level);
-      vec3 local = nodeLocal(p, level) * 7.0;
-      vec3 slope = walk.dirSteps * inverseSize;
-      uint brick = wordBrick(word);
-      bool blend = parentLevel < level;
-      float voxels = span * max(abs(slope.x), max(abs(slope.y), abs(slope.z)));
-      float count = bound < kThinBrick && !blend ? 1.0 : clamp(ceil(min(voxels * tree.voxelSegments, bound / tree.segmentDepth)), 1.0, 16.0);
-      float dt = span / count;
-      vec3 parentLocal = vec3(0.0);
-      if (blend) parentLocal = nodeLocal(p, parentLevel) * 7.0;
-      for (float i = 0.5; i < count; i += 1.0) {
-        float s = i * dt;
-        vec2 data = sampleBrick(brick, local + slope * s);
+  float cellsAlong = 7.0 * max(abs(walk.dirSteps.x), max(abs(walk.dirSteps.y), abs(walk.dirSteps.z)));  // times 1 / size: cells a metre
+  float weighted = 0.0, open = 0.0;
+  int visit = 0;
+  // Every loop ends with its condition, and both sides of an `if` are cheap: software GL runs a loop's body once however it begins,
+  // and both sides of every branch.
+  do {
+    // On to the next brick that is not empty.
+    vec3 steps;
+    uint level, brick, parent, bounding;
+    float next, parentWeight;
+    bool empty;
+    do {
+      float away = segment.near + t;
+      uvec3 p = walkTo(walk, t);
+      DetailLevel detail = detailAt(tree.detail * tree.rootSize_m / max(away, tree.sampleNear_m), tree.depth);
+      uint mapLevel = mapLevelAt(tree.rootSize_m / max(away, 1e-3), tree.mapBase, tree.depth);
+      uint word = 0u;
+      uint want = detail.level;
+      bool again = false;
+      parent = kZeroBrick;
+      parentWeight = 0.0;
+      do {  // a second turn for the parent where it fades in
+        uint found = lookUp(p, want, mapLevel);
+        ray.cells++;
+        parent = again ? wordBrick(found) : parent;
+        parentWeight = again ? detail.parentWeight : parentWeight;
+        word = again ? word : found;
+        bounding = found;
+        again = !again && detail.parentWeight > 0.0 && want > 0u && wordLevel(found) == want;
+        want--;
+      } while (again);
+      empty = wordEmpty(bounding);
+      brick = wordBrick(word);
+      level = empty ? wordLevel(bounding) : wordLevel(word);
+      steps = nodeSteps(p, level);
+      next = min(t + nodeExit(steps, levelSteps(level), walk.ahead, walk.metrePerStep) + pastExit(away), end);
+      t = empty ? next : t;
+      visit++;
+    } while (empty && t < end && visit < kMaxCells);
+    // An empty brick left at the end of the ray is the zero brick, and adds nothing.
+    float span = next - t;
+    float perStep = levelStepsInverse(level);
+    vec3 local = steps * (7.0 * perStep);
+    vec3 slope = walk.dirSteps * (7.0 * perStep);
+    // inside the parent: half the cells, from 0 or 3.5
+    vec3 parentLocal = 0.5 * local + 3.5 * vec3(walkOctant(walk, t, level));
+    float bound = maxCodeValue(wordMaxCode(bounding)) * tree.maxExtinction_per_m * span;
+    float halves = span * cellsAlong * perStep * (2.0 / 7.0);
+    float count = bound < kThinShare * tree.step ? 1.0 : max(ceil(min(halves, bound) / tree.step), 1.0);
+    float dt = span / count;
+    float depthPerDensity = tree.maxExtinction_per_m * dt * -1.44269504;
+    float i = 0.5;
+    do {
+      float s = i * dt;
+      vec2 data = vec2(0.0);
+      vec3 at = local + slope * s;
+      uint from = brick;
+      float share = 1.0 - parentWeight;
+      bool coarse = false;
+      do {  // a second turn for the parent; light belongs to the density it was stored with
+        vec2 found = sampleBrick(from, at);
+        float own = found.x * share, both = data.x + own;
+        data = vec2(both, both > 0.0 ? mix(data.y, found.y, own / both) : found.y);
         ray.samples++;
-        if (blend) {
-          float w = detailAt(tree.detail * tree.rootSize_m / (segment.near + t + s), tree.depth).parentWeight;
-          vec2 coarse = sampleBrick(parent, parentLocal + slope * (0.5 * s));
-          ray.samples++;
-          // light belongs to the density it was stored with
-          float fine = data.x * (1.0 - w), both = fine + coarse.x * w;
-          data.y = both > 0.0 ? mix(data.y, coarse.y, coarse.x * w / both) : data.y;
-          data.x = both;
-        }
-        if (data.x > 0.0) {
-          float kept = exp2(data.x * tree.maxExtinction_per_m * dt * -1.44269504);
-          float tau = decodeDepth(data.y);
-          float gain = ray.transmittance * (1.0 - kept);
-          ray.sun += gain * sunSource(phases, tau);
-          ray.sky += gain * skySource(tau);
-          ray.ground += gain * groundSource(tau);
-          weighted += gain * (t + s);
-          weight += gain;
-          ray.transmittance *= kept;
-        }
-      }
-      if (ray.transmittance < kOpaqueTransmittance) {
-        float rest = 1.0 / (1.0 - ray.transmittance);
-        ray.sun *= rest;
-        ray.sky *= rest;
-        ray.ground *= rest;
-        ray.transmittance = 0.0;
-        break;
-      }
-    }
+        coarse = !coarse && parentWeight > 0.0;
+        from = parent;
+        at = parentLocal + slope * (0.5 * s);
+        share = parentWeight;
+      } while (coarse);
+      float kept = ray.transmittance * exp2(data.x * depthPerDensity);
+      float gain = ray.transmittance - kept;
+      float tau = decodeDepth(data.y);
+      ray.sun += gain * sunSource(phases, tau);
+      open += gain * skyShare(tau);
+      weighted += gain * (t + s);
+      ray.transmittance = kept;
+      i += 1.0;
+    } while (i < count && ray.transmittance >= kOpaqueTransmittance);
     t = next;
-  }
-  if (weight > 0.0) ray.distance_m = segment.near + weighted / weight;
+  } while (t < end && ray.transmittance >= kOpaqueTransmittance && visit < kMaxCells);
+  float opacity = 1.0 - ray.transmittance;
+  if (opacity > 0.0) ray.distance_m = segment.near + weighted / opacity;
+  // what little light passes an opaque cloud is given to what was seen
+  float rest = ray.transmittance < kOpaqueTransmittance ? 1.0 / opacity : 1.0;
+  ray.sun *= rest;
+  ray.sky = skySource(open) * rest;
+  ray.ground = groundSource(opacity, open) * rest;
+  if (ray.transmittance < kOpaqueTransmittance) ray.transmittance = 0.0;
   return ray;
 }

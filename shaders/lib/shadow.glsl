@@ -12,7 +12,7 @@ float sunDepth(dvec3 start_planet, float skip_m) {
   double r = length(start_planet);
   double radius = double(tree.planetRadius_m);
   double b = dot(start_planet, dvec3(dir));
-  double top = radius + double(tree.bandTop_m);
+  double top = radius + double(tree.shadowTop_m);
   Interval shell = sphereInterval(b, (r - top) * (r + top));
   Interval ground = sphereInterval(b, (r - radius) * (r + radius));
   if (shell.near > shell.far) return 0.0;
@@ -21,22 +21,32 @@ float sunDepth(dvec3 start_planet, float skip_m) {
   // how far the start is from where the maps are centred; along the ray that grows by at most t
   float fromCentre = length(vec3(start_planet) - tree.mapCentre.xyz);
   float t = max(shell.near, skip_m), end = shell.far, depth = 0.0;
-  for (int visit = 0; visit < kMaxVisits && t < end && depth < kOpaque; ++visit) {
-    uvec3 p = walkTo(walk, t);
-    uint level = detailAt(kShadowReach * tree.rootSize_m / max(t, 1.0), tree.depth).level;
-    uint word = lookUp(p, level, mapLevelAt(tree.rootSize_m / (fromCentre + t), tree.mapBase, tree.depth));
-    uint at = wordLevel(word);
-    float next = min(t + nodeExit(p, at, walk.dirSteps, walk.metrePerStep) + pastExit(t), end);
-    if (!wordEmpty(word)) {
-      float inverseSize = 7.0 / levelSteps(at);
-      vec3 local = nodeLocal(p, at) * 7.0;
-      vec3 slope = walk.dirSteps * inverseSize;
-      // two midpoint samples resolve a node of seven cells well enough for a depth that is stored on a 4^3 lattice
-      float half_m = 0.5 * (next - t);
-      float sum = sampleBrick(wordBrick(word), local + slope * (0.5 * half_m)).r + sampleBrick(wordBrick(word), local + slope * (1.5 * half_m)).r;
-      depth += sum * half_m * tree.maxExtinction_per_m;
-    }
+  if (t >= end) return 0.0;
+  int visit = 0;
+  do {
+    vec3 steps;
+    uint word, at;
+    float next;
+    bool empty;
+    do {  // on to the next brick that is not empty
+      uvec3 p = walkTo(walk, t);
+      uint level = detailAt(kShadowReach * tree.rootSize_m / max(t, 1.0), tree.depth).level;
+      word = lookUp(p, level, mapLevelAt(tree.rootSize_m / (fromCentre + t), tree.mapBase, tree.depth));
+      at = wordLevel(word);
+      steps = nodeSteps(p, at);
+      next = min(t + nodeExit(steps, levelSteps(at), walk.ahead, walk.metrePerStep) + pastExit(t), end);
+      empty = wordEmpty(word);
+      t = empty ? next : t;
+      visit++;
+    } while (empty && t < end && visit < kMaxVisits);
+    // two midpoint samples resolve a node of seven cells well enough for a far depth, which is stored on a 4^3 lattice
+    float cellsPerStep = 7.0 * levelStepsInverse(at);
+    vec3 local = steps * cellsPerStep;
+    vec3 slope = walk.dirSteps * cellsPerStep;
+    float half_m = 0.5 * (next - t);
+    float sum = sampleBrick(wordBrick(word), local + slope * (0.5 * half_m)).r + sampleBrick(wordBrick(word), local + slope * (1.5 * half_m)).r;
+    depth += sum * half_m * tree.maxExtinction_per_m;
     t = next;
-  }
+  } while (t < end && depth < kOpaque && visit < kMaxVisits);
   return min(depth, kOpaque);
 }

@@ -3,23 +3,25 @@
 #include "welkin/shared/tree_block.glsl.h"
 
 layout(std140, binding = WK_TREE_BINDING) uniform TreeUniforms { TreeBlock tree; };
-layout(std430, binding = WK_NODES_BINDING) readonly buffer NodeBuffer { uvec2 nodes[]; };
-layout(binding = WK_MAP_UNIT) uniform usampler3D u_maps;
+layout(binding = WK_TREE_UNIT) uniform usamplerBuffer u_tree;
 layout(binding = WK_BRICK_UNIT) uniform sampler3D u_bricks[BRICK_TEXTURES];
 
-// The node that holds position p at `level` or at the deepest resident level above: from the map of `mapLevel`, then down the node
-// buffer. The word's level is the node's own.
+// The node that holds position p at `level` or at the deepest resident level above: from the map of `mapLevel`, then down the nodes.
+// The word's level is the node's own. Loops end with their condition: software GL runs a loop's body once however it begins.
 uint lookUp(uvec3 p, uint level, uint mapLevel) {
-  uint from = min(level, mapLevel);
-  uvec3 cell = p >> (32u - from);
-  uvec2 entry = texelFetch(u_maps, ivec3(cell.x & 63u, cell.y & 63u, (cell.z & 63u) + (from - tree.mapBase) * 64u), 0).xy;
-  uint at = from;
-  while (at < level && entry.y != kNoGroup) {
-    entry = nodes[entry.y + childOctant(p, at)];
+  uint at = min(level, mapLevel);
+  uint index = mapEntry(p >> (32u - at), at, tree.mapBase);
+  uint known = 0xFFFFFFFFu;   // a map entry carries its level
+  uvec2 entry;
+  bool deeper;
+  do {
+    entry = texelFetch(u_tree, int(index)).xy;
+    entry.x = (entry.x & 0x07FFFFFFu) | (known == 0xFFFFFFFFu ? entry.x & 0xF8000000u : known << 27u);
+    deeper = at < level && entry.y != kNoGroup && !wordEmpty(entry.x);
+    index = tree.firstNode + entry.y + childOctant(p, at);
     at++;
-    entry.x |= at << 27u;
-    if (wordEmpty(entry.x)) break;
-  }
+    known = at;
+  } while (deeper);
   return entry.x;
 }
 

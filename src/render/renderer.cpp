@@ -135,9 +135,10 @@ void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
   block.detail = last.sampleDetail;
   block.maxExtinction_per_m = source->maxExtinction();
   block.bandBase_m = last.bandBase_m;
+  block.shadowTop_m = std::max(last.bandTop_m, static_cast<float>(source->top_m()));
+  block.sampleNear_m = last.sampleNear_m;
   block.bandTop_m = last.bandTop_m;
-  block.segmentDepth = static_cast<float>(scene.quality.step);
-  block.voxelSegments = 1;
+  block.step = static_cast<float>(scene.quality.step);
   tree->updateBlock(block);
 }
 
@@ -288,6 +289,8 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   stats.cpu_ms = gpu::processCpu_ms() - cpu0;
   return r.report(stats);
 }
+
+void Renderer::setStep(double step) { impl_->scene.quality.step = step; }
 
 void Renderer::preview(const View& view) {
   Impl& r = *impl_;

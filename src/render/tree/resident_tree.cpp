@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "welkin/shared/bindings.glsl.h"
 
@@ -11,7 +12,7 @@ using shared::kMapEdge;
 
 namespace {
 constexpr std::uint64_t kLayerBytes = std::uint64_t{shared::kBricksPerLayer} * 512 * 4;  // RG16
-constexpr std::uint64_t kMapBytes = std::uint64_t{kMapEdge} * kMapEdge * kMapEdge * 8;    // RG32UI
+constexpr std::uint64_t kMapBytes = std::uint64_t{shared::kMapCells} * sizeof(shared::NodeWords);
 constexpr std::uint64_t kGroupBytes = 64;
 // Non-empty children of a split node are two to six of eight; three groups to four bricks leaves room for the sparse end.
 constexpr std::uint32_t kGroupsPerLayer = shared::kBricksPerLayer * 3 / 4;
@@ -46,20 +47,30 @@ std::uint64_t TreeLayout::bytes() const {
 
 std::uint64_t TreeLayout::leastBytes(std::uint32_t depth) { return fixedBytes(depth) + kLayerBytes + kGroupsPerLayer * kGroupBytes; }
 
+ResidentTree::ResidentTree(ResidentTree&& o) noexcept
+    : layout_(o.layout_), root_(o.root_), words_(std::move(o.words_)), block_(std::move(o.block_)), mapJobs_(std::move(o.mapJobs_)),
+      wordsView_(std::exchange(o.wordsView_, 0)), bricks_(std::move(o.bricks_)), build_(std::move(o.build_)), map_(o.map_),
+      mapCells_(o.mapCells_), jobs_(std::move(o.jobs_)) {}
+
+ResidentTree::~ResidentTree() {
+  if (wordsView_) glDeleteTextures(1, &wordsView_);
+}
+
+std::size_t ResidentTree::nodeOffset(std::uint32_t node) const {
+  return (shared::firstNode(layout_.mapBase, layout_.depth) + std::size_t{node}) * sizeof(shared::NodeWords);
+}
+
 Result<ResidentTree> ResidentTree::create(gpu::MemoryAccount& account, const TreeLayout& layout, const RootFrame& root) {
   ResidentTree tree;
   tree.layout_ = layout;
   tree.root_ = root;
   const std::uint32_t levels = layout.depth - layout.mapBase + 1;
-  auto nodes = gpu::Buffer::create(account, "nodes", layout.groups * kGroupBytes);
-  if (!nodes) return nodes.error();
+  auto words = gpu::Buffer::create(account, "maps and nodes", levels * kMapBytes + layout.groups * kGroupBytes);
+  if (!words) return words.error();
   auto block = gpu::Buffer::create(account, "tree block", sizeof(shared::TreeBlock));
   if (!block) return block.error();
   auto jobs = gpu::Buffer::create(account, "map jobs", levels * 4096 * kJobBytes);
   if (!jobs) return jobs.error();
-  auto maps = gpu::Texture::create(account, "octree maps", {.target = GL_TEXTURE_3D, .format = GL_RG32UI, .width = int(kMapEdge), .height = int(kMapEdge),
-                                                            .depth = int(kMapEdge * levels), .filter = GL_NEAREST});
-  if (!maps) return maps.error();
   for (std::uint32_t i = 0; i < layout.textures; ++i) {
     auto bricks = gpu::Texture::create(account, "bricks", {.target = GL_TEXTURE_3D, .format = GL_RG16, .width = int(shared::kAtlasX * 8),
                                                            .height = int(shared::kAtlasY * 8), .depth = int(layout.layersPerTexture * 8)});
@@ -68,13 +79,14 @@ Result<ResidentTree> ResidentTree::create(gpu::MemoryAccount& account, const Tre
   }
   auto build = gpu::Program::compute("pass/maps/build.comp");
   if (!build) return build.error();
-  tree.nodes_ = std::move(*nodes);
+  tree.words_ = std::move(*words);
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &tree.wordsView_);
+  glTextureBuffer(tree.wordsView_, GL_RG32UI, tree.words_.id());
   tree.block_ = std::move(*block);
   tree.mapJobs_ = std::move(*jobs);
-  tree.maps_ = std::move(*maps);
   tree.build_ = std::move(*build);
   const shared::NodeWords root0{shared::packWord(shared::kZeroBrick, 0, 0), shared::kNoGroup};
-  tree.nodes_.upload(0, std::as_bytes(std::span(&root0, 1)));
+  tree.words_.upload(tree.nodeOffset(0), std::as_bytes(std::span(&root0, 1)));
   return tree;
 }
 
@@ -86,7 +98,7 @@ void ResidentTree::store(const FrameEdits& edits) {
     run.clear();
     do run.push_back(edits.nodes[end].words);
     while (++end < edits.nodes.size() && edits.nodes[end].node == edits.nodes[end - 1].node + 1);
-    nodes_.upload(edits.nodes[i].node * sizeof(shared::NodeWords), run);
+    words_.upload(nodeOffset(edits.nodes[i].node), run);
     i = end;
   }
   for (const DirtyNode& node : edits.dirty) markStale(node);
@@ -162,15 +174,14 @@ void ResidentTree::updateMaps(glm::dvec3 camera_planet) {
   if (jobs_.empty()) return;
   mapJobs_.upload(0, jobs_);
   mapJobs_.bind(GL_SHADER_STORAGE_BUFFER, WK_MAP_JOBS_BINDING);
-  nodes_.bind(GL_SHADER_STORAGE_BUFFER, WK_NODES_BINDING);
+  words_.bind(GL_SHADER_STORAGE_BUFFER, WK_NODES_BINDING);
   block_.bind(GL_UNIFORM_BUFFER, WK_TREE_BINDING);
-  glBindImageTexture(0, maps_.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RG32UI);
   constexpr std::size_t kMostGroups = 65535;
   for (std::size_t first = 0; first < jobs_.size(); first += kMostGroups) {
     build_.set("u_firstJob", static_cast<unsigned>(first));
     build_.dispatch(static_cast<unsigned>(std::min(kMostGroups, jobs_.size() - first)));
   }
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void ResidentTree::updateBlock(const shared::TreeBlock& values) {
@@ -182,15 +193,15 @@ void ResidentTree::updateBlock(const shared::TreeBlock& values) {
   block.planetRadius_m = static_cast<float>(root_.planetRadius_m);
   block.depth = layout_.depth;
   block.mapBase = layout_.mapBase;
+  block.firstNode = shared::firstNode(layout_.mapBase, layout_.depth);
   block.atlasDepthInverse = 1.0f / static_cast<float>(layout_.layersPerTexture * 8);
   block.bricksPerTexture = layout_.layersPerTexture * shared::kBricksPerLayer;
   block_.upload(0, std::as_bytes(std::span(&block, 1)));
 }
 
 void ResidentTree::bind() const {
-  nodes_.bind(GL_SHADER_STORAGE_BUFFER, WK_NODES_BINDING);
   block_.bind(GL_UNIFORM_BUFFER, WK_TREE_BINDING);
-  maps_.bind(WK_MAP_UNIT);
+  glBindTextureUnit(WK_TREE_UNIT, wordsView_);
   for (std::size_t i = 0; i < bricks_.size(); ++i) bricks_[i].bind(static_cast<GLuint>(WK_BRICK_UNIT + i));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The octree as the GPU stores it: node buffer, brick textures, octree maps, and what all passes know of it. It obeys the
+// The octree as the GPU stores it: maps and nodes in one buffer, brick textures, and what all passes know of it. It obeys the
 // streamer's edits.
 #include <array>
 #include <bitset>
@@ -26,6 +26,9 @@ struct TreeLayout {
 
 class ResidentTree {
  public:
+  ResidentTree() = default;
+  ResidentTree(ResidentTree&& o) noexcept;
+  ~ResidentTree();
   static Result<ResidentTree> create(gpu::MemoryAccount& account, const TreeLayout& layout, const RootFrame& root);
 
   void store(const FrameEdits& edits);                       // node words and marks maps stale
@@ -44,13 +47,14 @@ class ResidentTree {
     bool placed = false;
     std::bitset<kBlocks * kBlocks * kBlocks> stale;
   };
+  std::size_t nodeOffset(std::uint32_t node) const;  // bytes into words_
   void markStale(const DirtyNode& node);
   void placeWindow(std::uint32_t level, glm::dvec3 camera_planet);
 
   TreeLayout layout_;
   RootFrame root_;
-  gpu::Buffer nodes_, block_, mapJobs_;
-  gpu::Texture maps_;
+  gpu::Buffer words_, block_, mapJobs_;  // words: octree maps, then nodes
+  GLuint wordsView_ = 0;                 // the same as a buffer texture
   std::vector<gpu::Texture> bricks_;
   gpu::Program build_;
   std::array<Map, shared::kMaxDepth + 1> map_;

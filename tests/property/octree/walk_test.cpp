@@ -58,7 +58,7 @@ TEST(Walk, IntervalsAbutAndNothingIsSkipped) {
         ASSERT_LT(n, 200'000) << "the walk does not advance; seed " << seed;
         const glm::uvec3 p = walkTo(walk, at);
         const std::uint32_t level = tree.leafLevel(p);
-        const float next = std::min(at + nodeExit(p, level, walk.dirSteps, walk.metrePerStep) + pastExit(at, float(kStep_m)), length);
+        const float next = std::min(at + nodeExit(nodeSteps(p, level), levelSteps(level), walk.ahead, walk.metrePerStep) + pastExit(at, float(kStep_m)), length);
         ASSERT_GT(next, at) << "an empty interval; seed " << seed;
         // Every point of the interval lies in the node, to the error that the walk states. Outside the root: positions wrap, stop.
         const glm::uvec3 low = nodeCorner(p, level);

@@ -107,7 +107,7 @@ TEST(Addressing, NodeExitLeavesTheNode) {
     const uvec3 p(random(), random(), random());
     std::normal_distribution<float> normal;
     const shared::vec3 d = glm::normalize(shared::vec3(normal(random), normal(random), normal(random)));
-    const float t = shared::nodeExit(p, level, d, 1.0f / d);
+    const float t = shared::nodeExit(shared::nodeSteps(p, level), shared::levelSteps(level), shared::vec3(glm::greaterThanEqual(d, shared::vec3(0))), 1.0f / d);
     ASSERT_GE(t, 0);
     const shared::uvec3 lo = p & uvec3(shared::levelMask(level));
     // At t one axis is at a face and none is beyond: in units of steps, floats carry 24 of 32 bits.

@@ -65,6 +65,7 @@ class Renderer {
   FrameStats frame(const View& view, FrameMode mode = FrameMode::Reprojected);
   // Streams (draws nothing) until nothing is pending for this view, then returns. `progress` gets 0..1 and may return false to stop.
   FrameStats settle(const View& view, const std::function<bool(double)>& progress = {});
+  void setStep(double step);  // Quality::step from the next picture on; the tree stays as it is
   // Draws this view from the tree as it is now, every pixel marched; no edit is applied, history and frame count stay. For
   // comparing: image() and radiance() then return this picture.
   void preview(const View& view);

@@ -15,7 +15,7 @@
 #define WK_CAMERA_BINDING 0
 // texture units
 #define WK_BRICK_UNIT 0            // 0..7: brick textures
-#define WK_MAP_UNIT 8              // octree maps, 3-D, RG32UI, levels stacked along z
+#define WK_TREE_UNIT 8             // octree maps and nodes, buffer texture, RG32UI (tree_block.glsl.h: mapEntry)
 #define WK_COVER_UNIT 9            // cover, 2-D array of 6 faces, R16
 #define WK_SKY_TRANSMITTANCE_UNIT 10
 #define WK_SKY_IRRADIANCE_UNIT 11

@@ -36,9 +36,11 @@ WK_FN float sunSource(CloudPhases phases, float tau) {
   return phases.single * half_ * half_ + phases.second * half_ + phases.third * quarter + diffuse;
 }
 
-// Sky light from above fades with depth (isotropic, diffusing); light from the ground reaches what the sun does not.
-WK_FN float skySource(float tau) { return F(1.0) / (F(2.0) * kPi) / (F(1.0) + F(0.25) * tau); }
-WK_FN float groundSource(float tau) { return F(1.0) / (F(2.0) * kPi) * (F(0.25) + F(0.75) * tau / (tau + F(6.0))); }
+// Sky light from above fades with depth (isotropic, diffusing): the share that arrives at sun depth tau. Light from the ground reaches
+// what the sky does not: from a quarter at the top to all of it far down. A ray sums opacity and opacity times share; both follow.
+WK_FN float skyShare(float tau) { return F(1.0) / (F(1.0) + F(0.25) * tau); }
+WK_FN float skySource(float openOpacity) { return openOpacity * (F(0.5) / kPi); }
+WK_FN float groundSource(float opacity, float openOpacity) { return (opacity - F(0.75) * openOpacity) * (F(0.5) / kPi); }
 
 // Share of the sun's irradiance that reaches the ground through cloud of this optical depth: the direct beam, and half of what a
 // conservative two-stream cloud lets through (1 / (1 + 0.1 tau)); the other half falls outside the shadow.

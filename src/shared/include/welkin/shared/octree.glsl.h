@@ -28,14 +28,20 @@ WK_FN uint wordMaxCode(uint word) { return (word >> 22u) & 31u; }
 WK_FN uint wordLevel(uint word) { return word >> 27u; }
 WK_FN bool wordEmpty(uint word) { return wordMaxCode(word) == 0u; }
 
-// Upper bound that a code stands for, as a fraction of the source's greatest extinction: code c in 1..31 is 2^(-(31-c)/2).
-WK_FN float maxCodeValue(uint code) { return code == 0u ? F(0.0) : exp2(F(-0.5) * float(31u - code)); }
+// Upper bound that a code stands for, as a fraction of the source's greatest extinction: code c in 1..31 is 2^(-(31-c)/2), made of
+// its bits: the exponent, and a factor sqrt(1/2) (rounded up) where 31 - c is odd.
+WK_FN float maxCodeValue(uint code) {
+  uint below = 31u - code;
+  float value = uintBitsToFloat((127u - (below >> 1u)) << 23u) * ((below & 1u) == 1u ? F(0.70710683) : F(1.0));
+  return code == 0u ? F(0.0) : value;
+}
 
 // All positions of a node of this level share the bits above this mask. (32-bit shift by the level: level 0 gives all ones.)
 WK_FN uint levelMask(uint level) { return 0xFFFFFFFFu >> level; }
 
-// Node size in steps. Exact: a power of two.
-WK_FN float levelSteps(uint level) { return float(1u << (31u - level)) * F(2.0); }
+// Node size in steps, 2^(32 - level), and its reciprocal. Exact: the exponent's bits.
+WK_FN float levelSteps(uint level) { return uintBitsToFloat((159u - level) << 23u); }
+WK_FN float levelStepsInverse(uint level) { return uintBitsToFloat((95u + level) << 23u); }
 
 WK_FN uvec3 nodeCorner(uvec3 p, uint level) { return p & uvec3(~levelMask(level)); }
 
@@ -64,22 +70,20 @@ WK_FN uvec3 brickSample(uvec3 corner, uint level, uvec3 i) {
                saturatingAdd(corner.z, brickSampleStep(i.z, level)));
 }
 
-// Distance along the ray, in units where `stepsPerUnit` = direction in steps (invSteps its reciprocal, +-huge for 0), from the
-// position p to the far side of its node of `level`. Never negative. p is inside by construction of the mask.
-WK_FN float nodeExit(uvec3 p, uint level, vec3 dirSteps, vec3 invSteps) {
-  uint mask = levelMask(level);
-  uvec3 lo = p & uvec3(mask);
-  vec3 room = vec3(dirSteps.x > F(0.0) ? float(mask - lo.x) + F(1.0) : float(lo.x),
-                   dirSteps.y > F(0.0) ? float(mask - lo.y) + F(1.0) : float(lo.y),
-                   dirSteps.z > F(0.0) ? float(mask - lo.z) + F(1.0) : float(lo.z));
-  vec3 t = room * abs(invSteps);
+// Position of p inside its node of `level`, in steps. Exact below 2^24, rounded above.
+WK_FN vec3 nodeSteps(uvec3 p, uint level) {
+  uvec3 lo = p & uvec3(levelMask(level));
+  return vec3(float(lo.x), float(lo.y), float(lo.z));
+}
+
+// Distance from there to the far side of the node: per axis the face ahead is at 0 or at `size`. `ahead` is 1 where the direction is not
+// negative, else 0; `perStep` the distance a step, signed, huge where the direction is 0 (walk.glsl.h). Never negative.
+WK_FN float nodeExit(vec3 steps, float size, vec3 ahead, vec3 perStep) {
+  vec3 t = (ahead * size - steps) * perStep;
   return min(t.x, min(t.y, t.z));
 }
 
 // Coordinate of p inside its node of `level`, 0..1 an axis.
-WK_FN vec3 nodeLocal(uvec3 p, uint level) {
-  uvec3 lo = p & uvec3(levelMask(level));
-  return vec3(float(lo.x), float(lo.y), float(lo.z)) * (F(1.0) / levelSteps(level));
-}
+WK_FN vec3 nodeLocal(uvec3 p, uint level) { return nodeSteps(p, level) * levelStepsInverse(level); }
 
 WK_END

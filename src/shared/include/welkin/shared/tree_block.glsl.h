@@ -33,13 +33,23 @@ struct TreeBlock {
   float maxExtinction_per_m;
   float bandBase_m, bandTop_m;
   float planetRadius_m;
-  float segmentDepth;       // optical depth of a march segment
+  float step;               // length of a march segment in halves of the node's size; its optical depth where that asks for fewer
   uint depth;
   uint mapBase;             // coarsest octree map's level: its 64^3 cells or fewer cover the root
   float atlasDepthInverse;  // 1 / texels along z of a brick texture
-  float voxelSegments;      // segments a voxel at most
+  uint firstNode;           // where the nodes start in the tree's buffer
+  float spare0;
+  float shadowTop_m;        // where shadow rays end: the source's top, or the band's if higher
+  float sampleNear_m;       // nearer than this the level of detail is that of this distance: finer data may not be there yet
   uint bricksPerTexture;
 };
+
+// One buffer of node words: the octree maps, coarsest first, each 64^3 cells with x fastest and addressed modulo 64; then the nodes.
+WK_CONST uint kMapCells = 262144u;
+WK_FN uint mapEntry(uvec3 cell, uint level, uint mapBase) {
+  return (level - mapBase) * kMapCells + ((cell.x & 63u) | ((cell.y & 63u) << 6u) | ((cell.z & 63u) << 12u));
+}
+WK_FN uint firstNode(uint mapBase, uint depth) { return (depth - mapBase + 1u) * kMapCells; }
 
 // Brick textures: 64 x 32 bricks a layer, at most 256 layers (1 GiB of RG16) a texture.
 WK_CONST uint kAtlasX = 64u;

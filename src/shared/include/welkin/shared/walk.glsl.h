@@ -8,6 +8,7 @@ struct Walk {
   uvec3 origin;       // start of the ray
   vec3 dirSteps;      // fixed-point steps a metre
   vec3 metrePerStep;  // reciprocal; huge where a component is 0
+  vec3 ahead;         // 1 where the direction is not negative, else 0
 };
 
 // `startSteps`: the start in fixed-point steps, fp64, clamped to the root. `dir` unit, planet frame.
@@ -16,7 +17,8 @@ WK_FN Walk startWalk(dvec3 startSteps, vec3 dir, float stepsPerMetre) {
   dvec3 s = dvec3(clamp(startSteps.x, WK_D(0.0), WK_D(4294967295.0)), clamp(startSteps.y, WK_D(0.0), WK_D(4294967295.0)),
                   clamp(startSteps.z, WK_D(0.0), WK_D(4294967295.0)));
   return WK_NEW(Walk, uvec3(uint(s.x), uint(s.y), uint(s.z)), d,
-                vec3(d.x == F(0.0) ? F(1e30) : F(1.0) / d.x, d.y == F(0.0) ? F(1e30) : F(1.0) / d.y, d.z == F(0.0) ? F(1e30) : F(1.0) / d.z));
+                vec3(d.x == F(0.0) ? F(1e30) : F(1.0) / d.x, d.y == F(0.0) ? F(1e30) : F(1.0) / d.y, d.z == F(0.0) ? F(1e30) : F(1.0) / d.z),
+                vec3(d.x < F(0.0) ? F(0.0) : F(1.0), d.y < F(0.0) ? F(0.0) : F(1.0), d.z < F(0.0) ? F(0.0) : F(1.0)));
 }
 
 // Position at distance t, modulo the root. In half steps, because the way across the root is 2^32 steps and more than an int holds.
