@@ -115,9 +115,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       } while (coarse);
       float kept = ray.transmittance * exp2(data.x * depthPerDensity);
       float gain = ray.transmittance - kept;
-      float tau = decodeDepth(data.y);
-      ray.sun += gain * sunSource(phases, tau);
-      open += gain * skyShare(tau);
+      ray.sun += gain * sunSource(phases, data.y);
+      open += gain * skyShare(data.y);
       weighted += gain * (t + s);
       ray.transmittance = kept;
       i += 1.0;

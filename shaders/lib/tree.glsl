@@ -25,9 +25,11 @@ uint lookUp(uvec3 p, uint level, uint mapLevel) {
   return entry.x;
 }
 
+vec3 atlasScale() { return vec3(1.0 / float(kAtlasX * 8u), 1.0 / float(kAtlasY * 8u), tree.atlasDepthInverse); }
+
 // Density fraction and encoded sun depth at `cells` (0..7 an axis) of a brick.
 vec2 sampleBrick(uint brick, vec3 cells) {
-  vec3 scale = vec3(1.0 / float(kAtlasX * 8u), 1.0 / float(kAtlasY * 8u), tree.atlasDepthInverse);
+  vec3 scale = atlasScale();
   cells = clamp(cells, 0.0, 7.0) + 0.5;
 #if BRICK_TEXTURES > 1
   uint index = brick / tree.bricksPerTexture;

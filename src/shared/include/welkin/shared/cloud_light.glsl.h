@@ -3,6 +3,7 @@
 // against each. All are per unit of sun irradiance or of sky irradiance, in 1/sr: multiplied by extinction and path length they give
 // radiance (droplets do not absorb visible light: albedo 1).
 #include "welkin/shared/phase.glsl.h"
+#include "welkin/shared/sun_depth.glsl.h"
 WK_BEGIN
 
 // Droplets: a strong forward lobe (silver lining) and a weak backward one. Asymmetry 0.87 * 0.85 - 0.13 * 0.3 = 0.70 after the
@@ -25,20 +26,21 @@ WK_FN CloudPhases cloudPhases(float cosTheta) {
   return WK_NEW(CloudPhases, cloudPhase(cosTheta, F(1.0)), F(0.5) * cloudPhase(cosTheta, F(0.6)), F(0.25) * cloudPhase(cosTheta, F(0.35)));
 }
 
-// Light that has forgotten where it came from: diffusion decays as 1 / (1 + k tau), not exponentially, so a thick cloud is grey
-// underneath, not black; at the lit face it builds up over the first optical depths.
-WK_CONST float kDiffuseGain = F(3.4);
-WK_CONST float kDiffuseDecay = F(0.09);
-WK_FN float sunSource(CloudPhases phases, float tau) {
-  float quarter = exp2(tau * F(-0.36067376));  // exp(-tau / 4)
+// Share of diffuse light that arrives at a sun depth: diffusion decays as 1 / (1 + 0.75 (1 - g) tau), not exponentially (two-stream
+// solution), so a thick cloud is grey underneath, not black. With g = 0.833 that is 1 / (1 + tau / 8), one minus the stored form.
+WK_FN float skyShare(float encoded) { return F(1.0) - encoded; }
+
+// In-scatter of sunlight at a point whose sun depth is stored as `encoded`. The diffuse part builds up over the first optical depths.
+WK_CONST float kDiffuseGain = F(3.7);
+WK_FN float sunSource(CloudPhases phases, float encoded) {
+  float quarter = exp2(decodeDepth(encoded) * F(-0.36067376));  // exp(-tau / 4)
   float half_ = quarter * quarter;
-  float diffuse = kDiffuseGain / (F(4.0) * kPi) * (F(1.0) - F(0.8) * half_) / (F(1.0) + kDiffuseDecay * tau);
+  float diffuse = kDiffuseGain / (F(4.0) * kPi) * (F(1.0) - F(0.8) * half_) * skyShare(encoded);
   return phases.single * half_ * half_ + phases.second * half_ + phases.third * quarter + diffuse;
 }
 
-// Sky light from above fades with depth (isotropic, diffusing): the share that arrives at sun depth tau. Light from the ground reaches
-// what the sky does not: from a quarter at the top to all of it far down. A ray sums opacity and opacity times share; both follow.
-WK_FN float skyShare(float tau) { return F(1.0) / (F(1.0) + F(0.25) * tau); }
+// Light of the sky arrives as diffuse light does. Light from the ground reaches what the sky does not: from a quarter at the top to all of
+// it far down. A ray sums opacity, and opacity times share; both sources follow.
 WK_FN float skySource(float openOpacity) { return openOpacity * (F(0.5) / kPi); }
 WK_FN float groundSource(float opacity, float openOpacity) { return (opacity - F(0.75) * openOpacity) * (F(0.5) / kPi); }
 

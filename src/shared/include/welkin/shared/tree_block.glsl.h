@@ -1,6 +1,7 @@
 #pragma once
 // What every pass that reads the octree knows of it: one std140 uniform block at WK_TREE_BINDING.
 #include "welkin/shared/octree.glsl.h"
+#include "welkin/shared/sun_depth.glsl.h"
 #define WK_TREE_BINDING 1
 WK_BEGIN
 
@@ -87,10 +88,5 @@ WK_FN uint mapLevelAt(float rootOverDistance, uint mapBase, uint depth) {
   uint bits = floatBitsToUint(max(kMapReach * rootOverDistance, F(1.0)));
   return clamp((bits >> 23u) - 127u, mapBase, depth);
 }
-
-// The sun's optical depth is stored as g = tau / (tau + 8): steps of 1e-4 for thin air, of 0.02 at depth 100.
-WK_CONST float kDepthScale = F(8.0);
-WK_FN float encodeDepth(float tau) { return tau / (tau + kDepthScale); }
-WK_FN float decodeDepth(float g) { return kDepthScale * g / max(F(1.0) - g, F(1.0e-4)); }
 
 WK_END
