@@ -6,22 +6,18 @@ layout(std140, binding = WK_TREE_BINDING) uniform TreeUniforms { TreeBlock tree;
 layout(binding = WK_TREE_UNIT) uniform usamplerBuffer u_tree;
 layout(binding = WK_BRICK_UNIT) uniform sampler3D u_bricks[BRICK_TEXTURES];
 
-// The node that holds position p at `level` or at the deepest resident level above: from the map of `mapLevel`, then down the nodes.
-// The word's level is the node's own. Loops end with their condition: software GL runs a loop's body once however it begins.
+// The node that holds position p at `level` or at the deepest resident level above: from the map of `mapLevel` (from the root, for a
+// level above the coarsest map), then down the nodes. The word's level is the node's own.
 uint lookUp(uvec3 p, uint level, uint mapLevel) {
-  uint at = min(level, mapLevel);
-  uint index = mapEntry(p >> (32u - at), at, tree.mapBase);
-  uint known = 0xFFFFFFFFu;   // a map entry carries its level
-  uvec2 entry;
-  bool deeper;
-  do {
-    entry = texelFetch(u_tree, int(index)).xy;
-    entry.x = (entry.x & 0x07FFFFFFu) | (known == 0xFFFFFFFFu ? entry.x & 0xF8000000u : known << 27u);
-    deeper = at < level && entry.y != kNoGroup && !wordEmpty(entry.x);
-    index = tree.firstNode + entry.y + childOctant(p, at);
+  bool fromRoot = level < tree.mapBase;
+  uint at = fromRoot ? 0u : min(level, mapLevel);
+  uint index = fromRoot ? tree.firstNode : mapEntry(p >> (32u - at), at, tree.mapBase);
+  uvec2 entry = texelFetch(u_tree, int(index)).xy;   // a map entry carries its level, the root has level 0
+  while (at < level && entry.y != kNoGroup && !wordEmpty(entry.x)) {
+    entry = texelFetch(u_tree, int(tree.firstNode + entry.y + childOctant(p, at))).xy;
     at++;
-    known = at;
-  } while (deeper);
+    entry.x |= at << 27u;
+  }
   return entry.x;
 }
 
