@@ -2,6 +2,7 @@
 BUILD ?= build
 OUT ?= out
 FLY ?= # further options of `welkin fly`, for instance FLY="--size 640x360"
+CHECK ?= --json benchmarks/results/check-orbit.json # further options of scripts/check_orbit.py, for instance CHECK="--only speed --quick"
 JOBS ?= $(shell nproc)
 
 .PHONY: all help build fly test data setup extras check-orbit install format format-check clean
@@ -22,13 +23,13 @@ build: setup ## build the program into build/
 fly: build data ## replay the flight from orbit to the ground into out/orbit-to-ground/
 	@scripts/fly.sh $(BUILD) benchmarks/orbit-to-ground.json $(OUT)/orbit-to-ground $(FLY)
 
-test: setup data ## build and run all tests
+test: setup ## build and run all tests
 	@scripts/build.sh $(BUILD) $(JOBS) ON
 	@scripts/test.sh $(BUILD)
 
 check-orbit: setup data ## what must hold for the flight, line by line
 	@scripts/build.sh $(BUILD) $(JOBS) ON
-	@/usr/bin/python3 scripts/check_orbit.py --build $(BUILD) --out $(OUT)/check-orbit
+	@/usr/bin/python3 scripts/check_orbit.py --build $(BUILD) --out $(OUT)/check-orbit $(CHECK)
 
 extras: build data ## the documented pictures at full size, and the zoom series
 	@scripts/extras.sh $(BUILD) $(OUT)/pictures

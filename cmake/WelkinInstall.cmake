@@ -35,13 +35,6 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/welkinConfigVersion.cmake C
 install(FILES ${CMAKE_BINARY_DIR}/welkinConfig.cmake ${CMAKE_BINARY_DIR}/welkinConfigVersion.cmake DESTINATION ${package_folder})
 
 if(WELKIN_TESTS)
-  find_program(SYSTEM_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
-  if(SYSTEM_PYTHON)
-    foreach(generator make_scenes make_paths)
-      add_test(NAME files_of_${generator}_are_current COMMAND ${SYSTEM_PYTHON} -B ${CMAKE_SOURCE_DIR}/scripts/${generator}.py --check)
-    endforeach()
-    add_test(NAME scripts COMMAND ${SYSTEM_PYTHON} -B -m unittest discover -s ${CMAKE_SOURCE_DIR}/tests/scripts -p "test_*.py")
-  endif()
   if(TARGET welkin AND TARGET welkin_render AND NOT WELKIN_SANITIZE AND NOT WELKIN_TSAN)
     add_test(NAME install_and_example
       COMMAND ${CMAKE_SOURCE_DIR}/tests/install/install_and_example.sh ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${CMAKE_COMMAND})

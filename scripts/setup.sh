@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache pkg-config python3-glad          # to build
-  libglm-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libcli11-dev liblodepng-dev libopenexr-dev libsodium-dev
+  libglm-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libcli11-dev liblodepng-dev libopenexr-dev libsodium-dev libstb-dev
   libegl-dev libopengl-dev libgl-dev libegl-mesa0 libgl1-mesa-dri   # OpenGL without a window, in software if need be
   libgtest-dev libgmock-dev                                     # tests
   python3-matplotlib                                            # the plot of a flight

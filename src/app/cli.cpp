@@ -84,6 +84,7 @@ int runProgram(int argc, const char* const* argv) {
   addRender(app, action);
   addFly(app, action, commandLine);
   addPlan(app, action);
+  addBench(app, action);
   addInfo(app, action);
   addCompare(app, action);
   initLog(false);

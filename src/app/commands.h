@@ -13,6 +13,7 @@ using Action = std::function<Result<void>()>;
 void addRender(CLI::App& app, Action& action);
 void addFly(CLI::App& app, Action& action, const std::string& commandLine);
 void addPlan(CLI::App& app, Action& action);
+void addBench(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 

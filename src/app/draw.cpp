@@ -3,6 +3,7 @@
 #include "welkin/app/build_info.h"
 #include "welkin/clouds/default_layers.h"
 #include "welkin/core/log.h"
+#include "welkin/core/units.h"
 
 namespace welkin::app {
 
@@ -14,7 +15,12 @@ Result<Stage> openStage(const Scene& scene, const RenderSettings& settings, cons
   const auto& device = stage.context->device();
   log::info("OpenGL: {} ({}){}", device.renderer, device.version, device.software ? ", software: no GPU is used" : "");
   auto renderer = Renderer::create(*stage.context, scene, settings);
-  if (!renderer) return renderer.error();
+  if (!renderer) {  // whichever part did not fit: what helps is the least budget that does
+    const auto least = leastBudget(*stage.context, scene);
+    if (!least || scene.quality.budget_bytes >= *least) return renderer.error();
+    return Error{fmt::format("budget: {} is too little for this scene at depth {}: the least that works is {} MiB",
+                             bytesText(scene.quality.budget_bytes), scene.quality.depth, *least >> 20)};
+  }
   stage.renderer = std::move(*renderer);
   for (const auto& note : stage.renderer->notes()) log::warn("{}", note);
   return stage;

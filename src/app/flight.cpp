@@ -124,7 +124,7 @@ class Replay {
 
   Result<void> writePicture(int frame, const Image8& image) {
     const auto state = stateOf(*stage_.renderer, pose(frame).view, plan_.size, pose(frame).time_s, false, data_);
-    pictures_.push_back(image);
+    pictures_.push_back({image, fmt::format("frame {}   {}", frame, heightText(altitude_m(pose(frame).view, plan_.scene.planet)))});
     return writePng(plan_.out / pictureName(frame), image, textsFromState(state, plan_.out));
   }
 
@@ -193,7 +193,7 @@ class Replay {
   RenderSettings settings_;
   Stage stage_;
   measure::TimingReport report_;
-  std::vector<Image8> pictures_;
+  std::vector<SheetPicture> pictures_;
   std::vector<std::pair<int, Image8>> qualityImages_;
 };
 

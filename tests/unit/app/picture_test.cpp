@@ -223,12 +223,32 @@ TEST(ContactSheet, averagesAndPlaces) {
   EXPECT_EQ(small.rgba, (std::vector<std::uint8_t>{200, 200, 200, 255, 200, 200, 200, 255}));  // a constant stays one
   Image8 halves{2, 1, {0, 0, 0, 255, 255, 255, 255, 255}};
   EXPECT_EQ(scaled(halves, 1, 1).rgba[0], 186);  // half the light: 255 * 0.5^(1/2.2)
-  const Image8 sheet = contactSheet({a, a, a, a, a}, 4, 4);
+  const SheetPicture p{a, {}};
+  const Image8 sheet = contactSheet({p, p, p, p, p}, 4, 4);
   EXPECT_EQ(sheet.width, 6 + 4 * 10);
-  EXPECT_EQ(sheet.height, 6 + 2 * 8);
+  EXPECT_EQ(sheet.height, 6 + 2 * (8 + 24));  // a strip for the caption under each row
   EXPECT_EQ(sheet.rgba[0], 24);
   EXPECT_EQ(sheet.rgba[std::size_t(4 * (6 * sheet.width + 6))], 200);
   EXPECT_TRUE(contactSheet({}).rgba.empty());
+}
+
+TEST(ContactSheet, captionsStayUnderTheirPicture) {
+  const Image8 black{100, 50, std::vector<std::uint8_t>(100 * 50 * 4, 0)};
+  const Image8 plain = contactSheet({{black, ""}, {black, ""}}, 100, 2);
+  const Image8 sheet = contactSheet({{black, "frame 7"}, {black, std::string(500, 'W')}}, 100, 2);
+  ASSERT_EQ(sheet.rgba.size(), plain.rgba.size());
+  int left = 0, right = 0, elsewhere = 0;
+  for (int y = 0; y < sheet.height; ++y) {
+    for (int x = 0; x < sheet.width; ++x) {
+      const auto at = std::size_t(y * sheet.width + x) * 4;
+      if (sheet.rgba[at] == plain.rgba[at]) continue;
+      const bool under = y >= 6 + 50;
+      (under && x >= 6 && x < 106 ? left : under && x >= 112 && x < 212 ? right : elsewhere) += 1;
+    }
+  }
+  EXPECT_GT(left, 100);  // seven letters of more than four font pixels of 2 x 2 each
+  EXPECT_GT(right, left);
+  EXPECT_EQ(elsewhere, 0);
 }
 
 }  // namespace
