@@ -35,7 +35,8 @@ set_target_properties(welkin_glad PROPERTIES EXPORT_NAME glad)
 # Warnings are errors. -ffp-contract=off: the C++ twin of a shader function rounds after every operation, as GLSL does.
 add_library(welkin_warnings INTERFACE)
 target_compile_options(welkin_warnings INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)  # a note about GCC before 4.6, whose code nothing here meets
 if(WELKIN_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

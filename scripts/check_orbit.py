@@ -178,7 +178,7 @@ def check_memory(c):
         if data:
             c.at_least(f"budget {budget}: frames run", len(data["frames"]), 100)
             c.sound(f"budget {budget}", data)
-    scene = f"{FLIGHT[:-5]}.scene.json"
+    scene = "benchmarks/poses/near.json"
     info = c.report("info", os.path.join(c.out, "info.json"), ["info", scene, "--json", os.path.join(c.out, "info.json"), "--quiet"])
     if not info:
         return
