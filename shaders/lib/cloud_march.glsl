@@ -11,6 +11,7 @@ struct CloudRay {
   float transmittance;
   float distance_m;     // from the camera, weighted by what each point adds to opacity; of the ground or the sky if nothing is met
   uint cells, samples;  // look-ups, brick samples
+  bool hole;            // met data coarser than the streamer promised for the distance
 };
 
 const float kOpaqueTransmittance = 1.0 / 512.0;
@@ -39,7 +40,7 @@ Segment cloudSegment(dvec3 position, double altitude, double r, double radius, v
 }
 
 CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, vec3 dir, float ground_m, CloudPhases phases) {
-  CloudRay ray = CloudRay(0.0, 0.0, 0.0, 1.0, ground_m >= 0.0 ? ground_m : kSkyDistance_m, 0u, 0u);
+  CloudRay ray = CloudRay(0.0, 0.0, 0.0, 1.0, ground_m >= 0.0 ? ground_m : kSkyDistance_m, 0u, 0u, false);
   Segment segment = cloudSegment(position, altitude, r, radius, dir, ground_m);
   if (segment.near >= segment.far) return ray;
   Walk walk = startWalk(position + dvec3(dir) * double(segment.near), dir);
@@ -76,6 +77,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
         want--;
       } while (again);
       empty = wordEmpty(bounding);
+      ray.hole = ray.hole || (!wordEmpty(word) && wordLevel(word) < detail.level);
       brick = wordBrick(word);
       level = empty ? wordLevel(bounding) : wordLevel(word);
       steps = nodeSteps(p, level);

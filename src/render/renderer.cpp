@@ -19,6 +19,7 @@ namespace welkin {
 namespace {
 
 constexpr std::uint64_t kLatency = 2;            // edits computed from frame k are applied at frame k + 2
+constexpr double kVoxelPixels = 0.7;             // finer is noise: one ray a pixel would step over it
 constexpr std::uint32_t kSettleBricks = 8192;    // bricks of one step while settling: nothing is drawn in between
 constexpr double kCloudShell_m = 20'000;         // the octree's root reaches this far above the ground
 constexpr int kMostSettleSteps = 4000;           // far over the count a tree of the largest budget needs
@@ -68,6 +69,7 @@ struct Renderer::Impl {
   double shellTop_m() const { return plan.air ? scene.atmosphere->top_m : source ? std::max(source->top_m(), 1.0) : 1.0; }
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
   void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats);
+  float pixelDetail = 1e6f;         // detail past which voxels are finer than pixels
   void updateTreeBlock(glm::dvec3 camera_planet);
   void beginPicture(const ViewFrame& frame);                  // camera, counters, sky
   void endPicture(const ViewFrame& frame, const View& view);  // composite
@@ -132,7 +134,7 @@ void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
   const glm::dvec3 sun = scene.sun ? scene.sun->direction_planet : glm::dvec3(0, 0, 1);
   block.sunDir = glm::vec4(glm::vec3(sun), plan.sun ? 1.0f : 0.0f);
   block.mapCentre = glm::vec4(glm::vec3(camera_planet), 0.0f);
-  block.detail = last.sampleDetail;
+  block.detail = std::min(last.sampleDetail, pixelDetail);
   block.maxExtinction_per_m = source->maxExtinction();
   block.bandBase_m = last.bandBase_m;
   block.shadowTop_m = std::max(last.bandTop_m, static_cast<float>(source->top_m()));
@@ -169,6 +171,8 @@ void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameSt
 }
 
 void Renderer::Impl::beginPicture(const ViewFrame& frame) {
+  // A voxel is node / 7: at the far end of its level's range it is kVoxelPixels wide, at the near end twice that.
+  pixelDetail = static_cast<float>(settings.height / (2 * frame.tanY * 7 * kVoxelPixels));
   camera.upload(0, std::as_bytes(std::span(&frame.block, 1)));
   camera.bind(GL_UNIFORM_BUFFER, WK_CAMERA_BINDING);
   counters.clear();

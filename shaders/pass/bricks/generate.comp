@@ -16,10 +16,12 @@ void main() {
   uvec3 corner = uvec3(job.x, job.y, job.z);
   float low = 1.0, high = 0.0, lowest = uintBitsToFloat(kAltitudeNoneMin), highest = 0.0;
   float margin_m = tree.stepLength_m * levelSteps(job.level) * (1.7320508 / 7.0);  // trilinear data reaches one voxel's diagonal
+  prepareSource(corner, job.level, gl_LocalInvocationIndex);
+  float density[8] = sourceColumn(corner, job.level, gl_LocalInvocationID.xy);
   for (uint z = 0u; z < 8u; ++z) {
     uvec3 i = uvec3(gl_LocalInvocationID.xy, z);
     uvec3 p = brickSample(corner, job.level, i);
-    float value = clamp(sourceDensity(p, job.level) / tree.maxExtinction_per_m, 0.0, 1.0);
+    float value = clamp(density[z] / tree.maxExtinction_per_m, 0.0, 1.0);
     value = floor(value * 65535.0 + 0.5) / 65535.0;  // what 16 bits keep
     storeTexel(tree, job.brick, i, vec2(value, 0.0));
     low = min(low, value);

@@ -24,22 +24,13 @@ float farDepth(uvec3 i) {
   return mix(y.x, y.y, f.z);
 }
 
-// Sum of densities at midpoints along the near part. Outside the brick the neighbour of the same level is asked.
-float nearSum(GpuBrickJob job, uvec3 i, float cell_m, uint mapLevel) {
-  Walk walk;
-  walk.origin = brickSample(uvec3(job.x, job.y, job.z), job.level, i);
-  walk.dirSteps = tree.sunDir.xyz * float(tree.stepsPerMetre);
+// Sum of densities at midpoints along the near part, from the tree at the brick's own level: on a face both neighbours see the same.
+float nearSum(Walk walk, uint level, float cell_m, uint mapLevel) {
   float sum = 0.0;
   for (int n = 0; n < kNearSamples; ++n) {
-    float cells = kNearCells * (float(n) + 0.5) / float(kNearSamples);
-    vec3 at = vec3(i) + tree.sunDir.xyz * cells;
-    if (all(greaterThanEqual(at, vec3(0.0))) && all(lessThanEqual(at, vec3(7.0)))) {
-      sum += sampleBrick(job.brick, at).r;
-    } else {
-      uvec3 p = walkTo(walk, cells * cell_m);
-      uint word = lookUp(p, job.level, mapLevel);
-      if (!wordEmpty(word)) sum += sampleBrick(wordBrick(word), nodeLocal(p, wordLevel(word)) * 7.0).r;
-    }
+    uvec3 p = walkTo(walk, cell_m * (kNearCells * (float(n) + 0.5) / float(kNearSamples)));
+    uint word = lookUp(p, level, mapLevel);
+    sum += sampleBrick(wordBrick(word), nodeLocal(p, wordLevel(word)) * 7.0).r;   // an empty node has the zero brick
   }
   return sum;
 }
@@ -55,9 +46,12 @@ void main() {
   float perSample = tree.maxExtinction_per_m * cell_m * kNearCells / float(kNearSamples);
   float reach_m = length(vec3(start) - tree.mapCentre.xyz) + 2.0 * float(size_m);  // every sample is nearer than this
   uint mapLevel = mapLevelAt(tree.rootSize_m / reach_m, tree.mapBase, tree.depth);
+  Walk walk;
+  walk.dirSteps = tree.sunDir.xyz * float(tree.stepsPerMetre);
   for (uint k = 0u; k < 8u; ++k) {
     uvec3 i = l * 2u + uvec3(k & 1u, (k >> 1u) & 1u, k >> 2u);
-    float depth = farDepth(i) + perSample * nearSum(job, i, cell_m, mapLevel);
+    walk.origin = brickSample(uvec3(job.x, job.y, job.z), job.level, i);
+    float depth = farDepth(i) + perSample * nearSum(walk, job.level, cell_m, mapLevel);
     storeTexel(tree, job.brick, i, vec2(loadTexel(tree, job.brick, i).x, encodeDepth(depth)));
   }
 }

@@ -76,4 +76,5 @@ void main() {
   atomicAdd(counters.marchedPixels, 1u);
   atomicAdd(counters.cells, cloud.cells);
   atomicAdd(counters.samples, cloud.samples);
+  if (cloud.hole) atomicAdd(counters.holes, 1u);
 }
