@@ -1,12 +1,9 @@
 #pragma once
 // A headless context, a camera and counters as the renderer binds them.
-#include <gtest/gtest.h>
-
-#include <memory>
 #include <vector>
 
+#include "gl_fixture.h"
 #include "sky_scene.h"
-#include "welkin/gpu/context.h"
 #include "welkin/gpu/memory.h"
 #include "welkin/gpu/resources.h"
 #include "welkin/shared/bindings.glsl.h"
@@ -14,17 +11,13 @@
 
 namespace welkin::test {
 
-class SkyFixture : public ::testing::Test {
+class SkyFixture : public GlTest {
  protected:
   void SetUp() override {
-    auto made = gpu::Context::createHeadless();
-    ASSERT_TRUE(made.ok()) << made.error().message;
-    context = std::move(*made);
+    GlTest::SetUp();
+    if (HasFatalFailure()) return;
     camera = std::move(gpu::Buffer::create(account, "camera", sizeof(shared::CameraBlock)).value());
     counters = std::move(gpu::Buffer::create(account, "counters", sizeof(shared::Counters)).value());
-  }
-  void TearDown() override {
-    for (const auto& message : context->firstMessages()) ADD_FAILURE() << message;
   }
   void upload(const shared::CameraBlock& block) {
     camera.upload(0, std::as_bytes(std::span(&block, 1)));
@@ -36,7 +29,6 @@ class SkyFixture : public ::testing::Test {
     counters.download(0, std::as_writable_bytes(std::span(&c, 1)));
     return c.nanPixels;
   }
-  std::unique_ptr<gpu::Context> context;
   gpu::MemoryAccount account{256ull << 20};
   gpu::Buffer camera, counters;
 };

@@ -34,7 +34,7 @@ struct Pose {
 TEST_F(Sky, AlongAgainstMarchInDouble) {
   std::mt19937 random(7);
   std::printf("%-30s %8s %8s %8s | %9s %9s\n", "pose", "median", "p95", "max", "T max", "255 max");
-  auto program = gpu::Program::compute("../tests/gpu/render/air_probe.comp");
+  auto program = gpu::Program::compute(WELKIN_SOURCE_DIR "/tests/gpu/render/air_probe.comp");
   ASSERT_TRUE(program.ok()) << program.error().message;
   auto sky = SkyTables::create(account, skyScene(0));  // the tables of the scene do not depend on where the sun is
   ASSERT_TRUE(sky.ok()) << sky.error().message;
@@ -155,7 +155,7 @@ TEST_F(Sky, MemoryIsChargedAndReturned) {
 
 // Offsets of the uniform block as GL sees them are those of the C++ struct.
 TEST_F(Sky, BlockLayoutIsTheSameOnBothSides) {
-  auto program = gpu::Program::compute("../tests/gpu/render/air_layout.comp");
+  auto program = gpu::Program::compute(WELKIN_SOURCE_DIR "/tests/gpu/render/air_layout.comp");
   ASSERT_TRUE(program.ok()) << program.error().message;
   const auto offset = [&](const char* name) {
     const GLuint index = glGetProgramResourceIndex(program->id(), GL_UNIFORM, name);
@@ -185,7 +185,7 @@ TEST_F(Sky, BlockLayoutIsTheSameOnBothSides) {
 
 // One row of 16 answers of air_twin.comp for each input.
 std::vector<float> twinAnswers(gpu::MemoryAccount& account, const SkyTables& sky, const std::vector<glm::vec4>& inputs) {
-  auto program = gpu::Program::compute("../tests/gpu/render/air_twin.comp");
+  auto program = gpu::Program::compute(WELKIN_SOURCE_DIR "/tests/gpu/render/air_twin.comp");
   EXPECT_TRUE(program.ok()) << program.error().message;
   auto in = std::move(gpu::Buffer::create(account, "inputs", inputs.size() * 16).value());
   auto out = std::move(gpu::Buffer::create(account, "answers", inputs.size() * 64).value());

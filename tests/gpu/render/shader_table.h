@@ -1,0 +1,51 @@
+#pragma once
+// Every variant of every pass that the renderer can ask for.
+#include <string>
+#include <vector>
+
+#include "welkin/gpu/program.h"
+
+namespace welkin::test {
+
+struct ShaderVariant {
+  std::string path;
+  gpu::Defines defines;
+  std::string name() const {
+    std::string text = path;
+    for (const auto& [key, value] : defines) text += " " + key + "=" + value;
+    return text;
+  }
+};
+
+// Profiles and phases of an atmosphere: how many layers, which is too sharp for tables, one kind of each in turn.
+inline gpu::Defines airDefines(int layers, int peak) {
+  gpu::Defines defines{{"AIR_LAYERS", std::to_string(layers)}, {"AIR_PEAK_LAYER", std::to_string(peak)}};
+  for (int i = 0; i < 6; ++i) {
+    defines.emplace_back("AIR_PROFILE_" + std::to_string(i), std::to_string(i % 3) + "u");
+    defines.emplace_back("AIR_PHASE_" + std::to_string(i), std::to_string((i + peak + 4) % 4) + "u");
+  }
+  return defines;
+}
+
+inline std::vector<ShaderVariant> shaderTable() {
+  std::vector<ShaderVariant> table{{"pass/maps/build.comp", {}}, {"pass/reproject/reproject.comp", {}}};
+  for (const char* textures : {"1", "2"}) {
+    for (const char* source : {"lib/clouds/layers.glsl", "lib/clouds/sphere.glsl"})
+      table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}}});
+    table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
+    for (const char* pixels : {"0", "1", "2"})
+      for (const char* air : {"0", "1"})
+        table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"PIXELS", pixels}}});
+  }
+  for (const char* pass : {"transmittance", "multiple", "irradiance", "view"})
+    for (const auto& [layers, peak] : {std::pair{1, -1}, {3, 1}, {6, 5}})
+      table.push_back({std::string("pass/sky/") + pass + ".comp", airDefines(layers, peak)});
+  for (int bits = 0; bits < 16; ++bits) {
+    const auto on = [&](int bit) { return std::string(bits >> bit & 1 ? "1" : "0"); };
+    table.push_back({"pass/composite/composite.comp",
+                     {{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_ALBEDO_MAP", on(3)}}});
+  }
+  return table;
+}
+
+}  // namespace welkin::test
