@@ -47,6 +47,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   float t = 0.0, end = segment.far - segment.near;
   float cellsAlong = 7.0 * max(abs(walk.dirSteps.x), max(abs(walk.dirSteps.y), abs(walk.dirSteps.z)));  // times 1 / size: cells a metre
   float weighted = 0.0, open = 0.0;
+  float lastLight = 0.0;  // sun depth at the last sample
   int visit = 0;
   // Every loop ends with its condition, and both sides of an `if` are cheap: software GL runs a loop's body once however it begins,
   // and both sides of every branch.
@@ -96,7 +97,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
     float halves = span * cellsAlong * perStep * (2.0 / 7.0);
     float count = bound < kThinShare * tree.step ? 1.0 : max(ceil(min(halves, bound) / tree.step), 1.0);
     float dt = span / count;
-    float depthPerDensity = tree.maxExtinction_per_m * dt * -1.44269504;
+    float density = tree.maxExtinction_per_m;
     float i = 0.5;
     do {
       float s = i * dt;
@@ -115,10 +116,14 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
         at = parentLocal + slope * (0.5 * s);
         share = parentWeight;
       } while (coarse);
-      float kept = ray.transmittance * exp2(data.x * depthPerDensity);
+      float thickness = data.x * density * dt;
+      float kept = ray.transmittance * exp2(thickness * -1.44269504);
       float gain = ray.transmittance - kept;
-      ray.sun += gain * sunSource(phases, data.y);
-      open += gain * skyShare(data.y);
+      // at the front of the segment the light is between the last midpoint's and this one's
+      float encoded = mix(0.5 * (lastLight + data.y), data.y, 2.0 * emissionDepth(thickness));
+      lastLight = data.y;
+      ray.sun += gain * sunSource(phases, encoded);
+      open += gain * skyShare(encoded);
       weighted += gain * (t + s);
       ray.transmittance = kept;
       i += 1.0;
