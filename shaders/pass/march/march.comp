@@ -47,15 +47,21 @@ CloudColours coloursAt(dvec3 position) {
 #endif
 }
 
+// Neighbouring invocations are a 4 x 2 tile of pixels, not a row: they are run together, and their rays stay alike for longer.
+ivec2 tilePixel() {
+  uint i = gl_LocalInvocationIndex;
+  return ivec2(gl_WorkGroupID.xy * 8u + uvec2((i & 3u) | ((i >> 1u) & 4u), ((i >> 2u) & 1u) | ((i >> 3u) & 6u)));
+}
+
 void main() {
 #if PIXELS == PIXELS_LIST
   if (gl_GlobalInvocationID.x >= count) return;
   uint entry = pixels[gl_GlobalInvocationID.x];
   ivec2 pixel = ivec2(entry & 0xFFFFu, entry >> 16u);
 #elif PIXELS == PIXELS_SIXTEENTH
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * 4 + u_offset;
+  ivec2 pixel = tilePixel() * 4 + u_offset;
 #else
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 pixel = tilePixel();
 #endif
   if (any(greaterThanEqual(pixel, u_size))) return;
   vec2 ndc = vec2(2.0 * (float(pixel.x) + 0.5) / float(u_size.x) - 1.0, 1.0 - 2.0 * (float(pixel.y) + 0.5) / float(u_size.y));
