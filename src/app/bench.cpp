@@ -82,6 +82,7 @@ class Bench {
 
   Result<void> run() {
     Progress progress("bench", options_.common.quiet);
+    progress.update(0);
     auto stage = openStage(start_.scene, settings_, options_.common.gpu);
     if (!stage) return stage.error();
     stage_ = std::move(*stage);

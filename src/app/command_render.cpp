@@ -43,6 +43,7 @@ Result<void> runRender(const RenderOptions& o) {
   auto stage = openStage(start->scene, settings, o.common.gpu);
   if (!stage) return stage.error();
   Progress progress("render", o.common.quiet);
+  progress.update(0);
   auto stats = drawConverged(*stage->renderer, start->view, [&](double fraction) {
     progress.update(0.95 * fraction);  // the rest is the picture itself
     return !stopRequested();

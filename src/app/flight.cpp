@@ -15,6 +15,8 @@
 namespace welkin::app {
 namespace {
 
+constexpr double kSettleShare = 0.1;  // of the progress bar: about the time that settling takes of the whole flight
+
 std::string heightText(double h_m) { return h_m >= 10000 ? fmt::format("{:.0f} km", h_m / 1000) : fmt::format("{:.0f} m", h_m); }
 
 // One replay: what it has and what it leaves.
@@ -73,13 +75,22 @@ class Replay {
     }
     Progress progress("fly", options_.common.quiet);
     const int warmUp = plan_.path.warmUp, total = warmUp + plan_.end - plan_.first;
+    const double settling = warmUp > 0 ? kSettleShare : 0;  // without a warm-up the flight starts from an empty tree
+    const auto drawn = [&](int count, const std::string& note) { progress.update(settling + (1 - settling) * count / total, note); };
+    progress.update(0, "settling");
+    if (warmUp > 0) {
+      stage_.renderer->settle(pose(plan_.first).view, [&](double fraction) {
+        progress.update(settling * fraction, "settling");
+        return !stopRequested();
+      });
+    }
     for (int i = 0; i < warmUp && !stopRequested(); ++i) {
       stage_.renderer->frame(pose(plan_.first).view);
-      progress.update(double(i + 1) / total, "warm-up");
+      drawn(i + 1, "warm-up");
     }
     for (int frame = plan_.first; frame < plan_.end && !stopRequested(); ++frame) {
       if (auto done = drawFrame(frame, video.get()); !done) return done;
-      progress.update(double(warmUp + frame + 1 - plan_.first) / total, heightText(report_.frames.back().altitude_m));
+      drawn(warmUp + frame + 1 - plan_.first, heightText(report_.frames.back().altitude_m));
     }
     report_.stopped = stopRequested();
     return video ? video->finish() : Result<void>{};
