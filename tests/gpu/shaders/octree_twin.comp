@@ -29,7 +29,7 @@ void main() {
   Walk walk = startWalk(dvec3(p) + 0.5, dir, u_stepsPerMetre);
   uvec3 to = walkTo(walk, t);
   vec3 local = nodeLocal(p, level);
-  float floats[20] = float[20](walk.dirSteps.x, walk.dirSteps.y, walk.dirSteps.z, nodeExit(p, level, dir, vec3(x.x, x.y, x.z) * 1e6),
+  float floats[20] = float[20](walk.dirSteps.x, walk.dirSteps.y, walk.dirSteps.z, nodeExit(nodeSteps(p, level), levelSteps(level), step(0.0, dir), (2.0 * step(0.0, dir) - 1.0) * x.xyz * 1e6),
     local.x, local.y, local.z, walkError(t, x.x), pastExit(t, x.x), levelSteps(level), detailAt(x.y * 70000.0, 16u).parentWeight,
     uintBitsToFloat(walk.origin.x), uintBitsToFloat(to.x), uintBitsToFloat(to.y), uintBitsToFloat(to.z), walk.metrePerStep.x, walk.metrePerStep.y,
     encodeDepth(x.z * 200.0), decodeDepth(x.w), maxCodeValue(p.y & 31u));
