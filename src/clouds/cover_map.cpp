@@ -120,12 +120,13 @@ void CoverMap::describe(shared::CloudHeader& header) const {
     header.coverEdge[m] = edge_[m];
     header.coverOffset[m] = offset_[m];
   }
-  // Texels are widest at a face's middle. A mip is taken once the voxel is wider than 3/4 of its texel there: at a face's corner, where
-  // texels are half as wide, that is still two texels a voxel.
+  // Texels are widest at a face's middle. A mip is taken once the weather lattice's spacing, a third of the node, is wider than 3/4 of its
+  // texel there: at a face's corner, where texels are half as wide, that is still two texels a spacing.
+  constexpr double kVoxelsASpacing = shared::kBrickCells / 3.0;
   const double widest_m = 2.0 * static_cast<double>(header.radius_steps) * static_cast<double>(header.step_m) / edge_[0];
   for (std::uint32_t level = 0; level <= shared::kMaxDepth; ++level) {
     std::uint32_t mip = 0;
-    while (mip + 1 < mips_ && static_cast<double>(header.footprint_m[level]) > 0.75 * widest_m * (2 << mip)) ++mip;
+    while (mip + 1 < mips_ && kVoxelsASpacing * static_cast<double>(header.footprint_m[level]) > 0.75 * widest_m * (2 << mip)) ++mip;
     header.coverMip[level] = mip;
   }
 }

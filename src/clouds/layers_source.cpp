@@ -126,6 +126,7 @@ void LayeredClouds::noiseBounds(const shared::CloudLayerParams& layer, const Box
 Bounds LayeredClouds::layerBounds(std::uint32_t index, const Box& box) const {
   const auto& layer = block_.layers[index];
   const auto view = this->view();
+  const shared::LayerAt layerNow = shared::layerAt(view, index, box.level);
   const float reach = 0.5f * layer.filter_m[box.level];
   const float low = box.altitudeLo_m - reach - layer.base_m, high = box.altitudeHi_m + reach - layer.base_m;
   if (high <= 0 || low >= layer.thickness_m) return {};
@@ -141,13 +142,13 @@ Bounds LayeredClouds::layerBounds(std::uint32_t index, const Box& box) const {
   const float coverLo = std::min(c0, c1) * weightLo, coverHi = std::min(1.0f, std::max(c0, c1) * weightHi);
   if (coverHi <= 0) return {};
 
-  const float scaleLo = shared::heightScale(view, index, coverHi), scaleHi = shared::heightScale(view, index, coverLo);
+  const float scaleLo = shared::heightScale(layer.topFollowsCover, coverHi), scaleHi = shared::heightScale(layer.topFollowsCover, coverLo);
   const float z0 = low * (low > 0 ? scaleLo : scaleHi), z1 = high * scaleHi;
   if (z0 >= layer.thickness_m) return {};
   const float fallStart = layer.thickness_m - layer.topFade_m;
-  const float profileLo = std::min(shared::profileAt(view, index, z0), shared::profileAt(view, index, z1));
+  const float profileLo = std::min(shared::profileAt(layerNow, z0), shared::profileAt(layerNow, z1));
   const float profileHi =
-      z0 <= fallStart && z1 >= layer.baseFade_m ? 1 : std::max(shared::profileAt(view, index, z0), shared::profileAt(view, index, z1));
+      z0 <= fallStart && z1 >= layer.baseFade_m ? 1 : std::max(shared::profileAt(layerNow, z0), shared::profileAt(layerNow, z1));
   const auto height = [&](float z) { return std::clamp(z * layer.invThickness, 0.0f, 1.0f); };
 
   float nLo, nHi;

@@ -60,10 +60,13 @@ float[8] sourceColumn(uvec3 corner, uint level, uvec2 xy) {
     density.v[k] = 0.0;
   }
   uint layers = s_layers;
-  while (layers != 0u) {
-    uint layer = uint(findLSB(layers));
+  bool any = layers != 0u;
+  do {
+    uint layer = any ? uint(findLSB(layers)) : 0u;
     layers &= layers - 1u;
     density = layerColumn(density, layer, p, level, steps, height, cover, type);
-  }
+  } while (any && layers != 0u);
+  if (!any)
+    for (uint k = 0u; k < 8u; ++k) density.v[k] = 0.0;
   return density.v;
 }

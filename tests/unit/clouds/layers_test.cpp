@@ -8,7 +8,7 @@
 #include "welkin/clouds/layer_params.h"
 #include "welkin/clouds/layers_source.h"
 #include "welkin/clouds/sphere_source.h"
-#include "welkin/shared/cloud_layers.glsl.h"
+#include "welkin/shared/cloud_column.glsl.h"
 
 namespace welkin {
 namespace {
@@ -157,6 +157,37 @@ TEST(Layers, BrokenCloudLetsThroughTheSameLightOnEveryLevel) {
                     truth.transmittance, mean.depth, truth.depth);
       }
     }
+  }
+}
+
+TEST(Layers, ColumnsAreTheirPoints) {
+  for (const CloudLayer& layer : defaultEarthLayers()) {
+    const LayeredClouds source = uniform(layer, 0.6);
+    Random random(4);
+    int cloudy = 0;
+    for (int i = 0; i < 600; ++i) {
+      const std::uint32_t level = 5 + random() % 14;
+      const double h = layer.base_m + (layer.top_m - layer.base_m) * static_cast<double>(random() % 1000) / 1000;
+      const glm::uvec3 corner = shared::nodeCorner(kRoot.toFixed(randomDirection(random) * (kRoot.planetRadius_m + h)), level);
+      const glm::uvec3 first(random() % 8, random() % 8, 0), p = shared::brickSample(corner, level, first);
+      shared::Column8 steps{}, height{}, cover{}, type{}, none{};
+      glm::uvec3 q[8];
+      for (std::uint32_t k = 0; k < 8; ++k) {
+        q[k] = shared::brickSample(corner, level, first + glm::uvec3(0, 0, k));
+        steps.v[k] = static_cast<float>(q[k].z - p.z);
+        height.v[k] = std::abs(shared::cloudAltitude(source.view(), q[k]));
+        cover.v[k] = 1, type.v[k] = 0.5f;
+      }
+      const shared::Column8 column = shared::layerColumn(source.view(), none, 0, p, level, steps, height, cover, type);
+      for (std::uint32_t k = 0; k < 8; ++k) {
+        const float point = source.density(q[k], level);
+        cloudy += point > 0;
+        // a noise is off by up to 1e-6 (fractions rounded to 2^-24 of a cell, slope 8), the ramp by that over the softness of 0.06 or more;
+        // ten times that for the sums
+        EXPECT_NEAR(column.v[k], point, 2e-4f * source.maxExtinction()) << layer.name << " level " << level << " sample " << k;
+      }
+    }
+    EXPECT_GT(cloudy, 500) << layer.name;
   }
 }
 

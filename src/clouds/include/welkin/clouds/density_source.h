@@ -37,9 +37,10 @@ class DensitySource {
   // Altitudes between which cloud can be, in metres, at infinite resolution.
   virtual double base_m() const = 0;
   virtual double top_m() const = 0;
-  // GLSL: path below shaders/lib of a file that defines `float sourceDensity(uvec3 p, uint level)` [1/m], reading
-  // `sourceParams` (std430 buffer of 32-bit words, declared by the file at binding kSourceParamsBinding) and, if cover() is
-  // given, `u_cover` (sampler2DArray, R16, 6 layers, texelFetch only, binding kCoverUnit).
+  // GLSL: path below shaders/ of a file that defines `void prepareSource(uvec3 corner, uint level, uint index)`, called once by all 64
+  // invocations of a brick, and `float[8] sourceColumn(uvec3 corner, uint level, uvec2 xy)`, the extinctions in 1/m of the brick's samples
+  // (x, y, 0..7). It reads `sourceParams` (std430 buffer of 32-bit words, declared by the file at binding WK_SOURCE_PARAMS_BINDING) and, if
+  // cover() is given, `u_cover` (sampler2DArray, R16, 6 layers, texelFetch only, WK_COVER_UNIT).
   virtual std::string shader() const = 0;
   virtual std::vector<std::uint32_t> shaderParams() const = 0;
   virtual const CoverFaces* cover() const { return nullptr; }

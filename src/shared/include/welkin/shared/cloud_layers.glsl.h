@@ -32,23 +32,50 @@ WK_FN float cloudType(WK_SOURCE_PARAM uvec3 p) {
   return typeFromNoise(noise3(p, shift, shift, seed), noise3(p, shift - 1u, shift - 1u, octaveSeed(seed, 1u)), z2 / r2);
 }
 
+// Cover and weather type change slowly: a node knows them on a lattice of 4^3 points, and in between they are trilinear.
+struct Weather {
+  float cover;
+  float type;
+};
+WK_FN uvec3 weatherPoint(uvec3 corner, uint level, uvec3 i) {
+  uint size = levelMask(level);  // a step short of the node's size: the last point then stays inside the root cube
+  uvec3 at = i * (size / 3u);
+  return uvec3(saturatingAdd(corner.x, i.x == 3u ? size : at.x), saturatingAdd(corner.y, i.y == 3u ? size : at.y),
+               saturatingAdd(corner.z, i.z == 3u ? size : at.z));
+}
+WK_FN Weather weatherAt(WK_SOURCE_PARAM uvec3 p, uint level) {
+  float cover = F(1.0);
+  if (WK_HEADER.coverMips > 0u) cover = coverAt(WK_SOURCE_ARG coverPlace(p), WK_HEADER.coverMip[level]);
+  return WK_NEW(Weather, cover, cloudType(WK_SOURCE_ARG p));
+}
 // Mean of clamp(x, 0, 1) over [a, b], a < b. Exactly 0 or 1 where that is constant.
 WK_FN float rampMean(float a, float b) {
   float ca = clamp(a, F(0.0), F(1.0)), cb = clamp(b, F(0.0), F(1.0));
   return (F(0.5) * (cb - ca) * (cb + ca) + (max(b, F(1.0)) - max(a, F(1.0)))) / (b - a);
 }
 
-// Mean of the trapezoid profile over [low, high], metres above the base: it rises and falls in turn, so it is rise + fall - 1.
-WK_FN float profileMean(WK_SOURCE_PARAM uint layer, float low, float high) {
-  if (high <= F(0.0) || low >= WK_LAYER(layer).thickness_m) return F(0.0);
-  float thickness = WK_LAYER(layer).thickness_m, rise = WK_LAYER(layer).invBaseFade, fall = WK_LAYER(layer).invTopFade;
-  return max(rampMean(low * rise, high * rise) + rampMean((thickness - high) * fall, (thickness - low) * fall) - F(1.0), F(0.0));
+// What the density of one layer needs at one level.
+struct LayerAt {
+  float base_m, thickness_m, invThickness, invBaseFade, invTopFade;
+  float filter_m, spread, invSpread2, clump;
+  float extinction_per_m, invSoftness, taper, topFollowsCover;
+};
+WK_FN LayerAt layerAt(WK_SOURCE_PARAM uint layer, uint level) {
+  return WK_NEW(LayerAt, WK_LAYER(layer).base_m, WK_LAYER(layer).thickness_m, WK_LAYER(layer).invThickness, WK_LAYER(layer).invBaseFade,
+                WK_LAYER(layer).invTopFade, WK_LAYER(layer).filter_m[level], WK_LAYER(layer).spread[level], WK_LAYER(layer).invSpread2[level],
+                WK_LAYER(layer).clump[level], WK_LAYER(layer).extinction_per_m, WK_LAYER(layer).invSoftness, WK_LAYER(layer).taper,
+                WK_LAYER(layer).topFollowsCover);
 }
 
-WK_FN float profileAt(WK_SOURCE_PARAM uint layer, float z) {
-  float up = clamp(z * WK_LAYER(layer).invBaseFade, F(0.0), F(1.0));
-  float down = clamp((WK_LAYER(layer).thickness_m - z) * WK_LAYER(layer).invTopFade, F(0.0), F(1.0));
-  return min(up, down);
+// Mean of the trapezoid profile over [low, high], metres above the base: it rises and falls in turn, so it is rise + fall - 1.
+WK_FN float profileMean(LayerAt a, float low, float high) {
+  if (high <= F(0.0) || low >= a.thickness_m) return F(0.0);
+  return max(rampMean(low * a.invBaseFade, high * a.invBaseFade) +
+             rampMean((a.thickness_m - high) * a.invTopFade, (a.thickness_m - low) * a.invTopFade) - F(1.0), F(0.0));
+}
+
+WK_FN float profileAt(LayerAt a, float z) {
+  return min(clamp(z * a.invBaseFade, F(0.0), F(1.0)), clamp((a.thickness_m - z) * a.invTopFade, F(0.0), F(1.0)));
 }
 
 // E[max(x + u, 0)] for u with the triangle density on [-a, a]; inv6a2 = 1 / (6 a^2), or 0 for a = 0.
@@ -79,9 +106,7 @@ WK_FN float thresholdOf(WK_SOURCE_PARAM uint layer, float cover) {
 WK_FN float thinness(float cover) { return min(cover * F(32.0), F(1.0)); }
 
 // How much the layer's height is stretched: its top falls to the base where cover is thin.
-WK_FN float heightScale(WK_SOURCE_PARAM uint layer, float cover) {
-  return F(1.0) / (F(1.0) - WK_LAYER(layer).topFollowsCover * (F(1.0) - cover));
-}
+WK_FN float heightScale(float topFollowsCover, float cover) { return F(1.0) / (F(1.0) - topFollowsCover * (F(1.0) - cover)); }
 
 WK_FN uint warpSteps(float n, float steps) { return uint(int(floor(n * steps))); }
 
@@ -99,34 +124,44 @@ WK_FN uvec3 warpedPosition(WK_SOURCE_PARAM uint layer, uvec3 p) {
 // untouched. So transmittance survives on every level, not only its logarithm; from space a field of small heaps is grey, not white.
 WK_FN float clumping(float clump, float c) { return clump > F(0.0) ? F(1.0) / (F(1.0) + clump * (F(1.0) - c)) : F(1.0); }
 
+// A layer at a height, before its noise is known.
+struct LayerPlace {
+  float profile;   // 0: no cloud whatever the noise
+  float threshold; // that the noise must exceed
+};
+// `h` is the magnitude of the altitude in metres: cloud is mirrored at the ground, so samples below it carry what the average of the
+// samples above would lose. `c` is the layer's own cover.
+WK_FN LayerPlace layerPlace(LayerAt a, float h, float c, float coverThreshold) {
+  float scale = heightScale(a.topFollowsCover, c);
+  float z = (h - a.base_m) * scale, reach = F(0.5) * a.filter_m * scale;
+  float profile = profileAt(a, z), middle = z;
+  if (a.filter_m > F(0.0)) {
+    float mirrored = F(-2.0) * a.base_m * scale - z;
+    profile = profileMean(a, z - reach, z + reach) + profileMean(a, mirrored - reach, mirrored + reach);
+    middle = F(0.5) * (clamp(z - reach, F(0.0), a.thickness_m) + clamp(z + reach, F(0.0), a.thickness_m));
+  }
+  profile = c > F(0.0) ? min(profile, F(1.0)) : F(0.0);
+  return WK_NEW(LayerPlace, profile, coverThreshold + a.taper * clamp(middle * a.invThickness, F(0.0), F(1.0)));
+}
+
+// Extinction in 1/m there, for the sum `n` of the octaves that the level shows.
+WK_FN float layerValue(LayerAt a, LayerPlace place, float c, float n) {
+  float x = (n - place.threshold) * a.invSoftness;
+  float ramp = F(1.0);
+  if (x - F(1.0) < a.spread)
+    ramp = clamp(expectedPositive(x, a.spread, a.invSpread2) - expectedPositive(x - F(1.0), a.spread, a.invSpread2), F(0.0), F(1.0));
+  return a.extinction_per_m * place.profile * ramp * thinness(c) * clumping(a.clump, c);
+}
+
 // Extinction in 1/m of one layer. `altitude_m` is that of p; cover and type are 0..1.
 WK_FN float layerDensity(WK_SOURCE_PARAM uint layer, uvec3 p, uint level, float altitude_m, float cover, float type) {
-  // Cloud is mirrored at the ground: samples below it carry what the average of the samples above would lose.
-  float h = abs(altitude_m);
-  float filter0 = WK_LAYER(layer).filter_m[level], reach = F(0.5) * filter0;
-  float base = WK_LAYER(layer).base_m, thickness = WK_LAYER(layer).thickness_m;
-  if (h + reach <= base || h - reach >= base + thickness) return F(0.0);
+  LayerAt a = layerAt(WK_SOURCE_ARG layer, level);
+  float h = abs(altitude_m), reach = F(0.5) * a.filter_m;
+  if (h + reach <= a.base_m || h - reach >= a.base_m + a.thickness_m) return F(0.0);
   float c = layerCover(WK_SOURCE_ARG layer, cover, type);
   if (c <= F(0.0)) return F(0.0);
-  float scale = F(1.0);
-  if (WK_LAYER(layer).topFollowsCover > F(0.0)) scale = heightScale(WK_SOURCE_ARG layer, c);
-  float z = (h - base) * scale;
-  reach *= scale;
-  float profile, middle;
-  if (reach <= F(0.0)) {
-    profile = profileAt(WK_SOURCE_ARG layer, z);
-    middle = z;
-  } else {
-    float mirrored = F(-2.0) * base * scale - z;
-    profile = profileMean(WK_SOURCE_ARG layer, z - reach, z + reach) + profileMean(WK_SOURCE_ARG layer, mirrored - reach, mirrored + reach);
-    middle = F(0.5) * (clamp(z - reach, F(0.0), thickness) + clamp(z + reach, F(0.0), thickness));
-  }
-  profile = min(profile, F(1.0));
-  if (profile <= F(0.0)) return F(0.0);
-
-  float spread = WK_LAYER(layer).spread[level];
-  float invSoftness = WK_LAYER(layer).invSoftness;
-  float threshold = thresholdOf(WK_SOURCE_ARG layer, c) + WK_LAYER(layer).taper * clamp(middle * WK_LAYER(layer).invThickness, F(0.0), F(1.0));
+  LayerPlace place = layerPlace(a, h, c, thresholdOf(WK_SOURCE_ARG layer, c));
+  if (place.profile <= F(0.0)) return F(0.0);
   uint octaves = WK_LAYER(layer).octaves[level], shift = WK_LAYER(layer).shift, streak = WK_LAYER(layer).streak;
   float billow = WK_LAYER(layer).billow, gain = WK_LAYER(layer).gain, amplitude = WK_LAYER(layer).amplitude;
   float restHigh = WK_LAYER(layer).restHigh;
@@ -137,16 +172,30 @@ WK_FN float layerDensity(WK_SOURCE_PARAM uint layer, uvec3 p, uint level, float 
     n += amplitude * billowNoise(noise3(q, shift - k, shift - k - streak, octaveSeed(WK_LAYER(layer).seed, k)), billow);
     rest -= amplitude;
     amplitude *= gain;
-    float x0 = (n - threshold) * invSoftness, room = rest * restHigh * invSoftness + spread;
+    float x0 = (n - place.threshold) * a.invSoftness, room = rest * restHigh * a.invSoftness + a.spread;
     // no later octave can bring it back, up or down
     if (x0 + room <= F(0.0)) return F(0.0);
     if (x0 - room >= F(1.0)) break;
   }
-  float x = (n - threshold) * invSoftness;
-  float inv = WK_LAYER(layer).invSpread2[level];
-  float ramp = F(1.0);
-  if (x - F(1.0) < spread) ramp = clamp(expectedPositive(x, spread, inv) - expectedPositive(x - F(1.0), spread, inv), F(0.0), F(1.0));
-  return WK_LAYER(layer).extinction_per_m * profile * ramp * thinness(c) * clumping(WK_LAYER(layer).clump[level], c);
+  return layerValue(a, place, c, n);
+}
+
+// Cover and type at p: trilinear in its node's lattice.
+WK_FN Weather weatherBetween(WK_SOURCE_PARAM uvec3 p, uint level) {
+  uvec3 corner = nodeCorner(p, level);
+  vec3 at = nodeLocal(p, level) * F(3.0);
+  uvec3 i = uvec3(min(uint(at.x), 2u), min(uint(at.y), 2u), min(uint(at.z), 2u));
+  vec3 f = at - vec3(float(i.x), float(i.y), float(i.z));
+  float cover = F(0.0), type = F(0.0);
+  for (uint k = 0u; k < 8u; ++k) {
+    uvec3 o = uvec3(k & 1u, (k >> 1u) & 1u, k >> 2u);
+    float w = (o.x == 1u ? f.x : F(1.0) - f.x) * (o.y == 1u ? f.y : F(1.0) - f.y) * (o.z == 1u ? f.z : F(1.0) - f.z);
+    if (w <= F(0.0)) continue;
+    Weather one = weatherAt(WK_SOURCE_ARG weatherPoint(corner, level, i + o), level);
+    cover += w * one.cover;
+    type += w * one.type;
+  }
+  return WK_NEW(Weather, cover, type);
 }
 
 // Extinction in 1/m of all layers: the densest one counts, so a tower that pierces a deck is no denser for it.
@@ -154,13 +203,11 @@ WK_FN float layersDensity(WK_SOURCE_PARAM uvec3 p, uint level) {
   float altitude_m = cloudAltitude(WK_SOURCE_ARG p);
   float h = abs(altitude_m), reach = F(0.5) * WK_HEADER.footprint_m[level];
   if (h + reach <= WK_HEADER.lowest_m || h - reach >= WK_HEADER.highest_m) return F(0.0);
-  float cover = F(1.0);
-  if (WK_HEADER.coverMips > 0u) cover = coverAt(WK_SOURCE_ARG coverPlace(p), WK_HEADER.coverMip[level]);
-  if (cover <= F(0.0)) return F(0.0);
-  float type = cloudType(WK_SOURCE_ARG p);
+  Weather weather = weatherBetween(WK_SOURCE_ARG p, level);
+  if (weather.cover <= F(0.0)) return F(0.0);
   float density = F(0.0);
   for (uint layer = 0u; layer < WK_HEADER.layerCount; ++layer)
-    density = max(density, layerDensity(WK_SOURCE_ARG layer, p, level, altitude_m, cover, type));
+    density = max(density, layerDensity(WK_SOURCE_ARG layer, p, level, altitude_m, weather.cover, weather.type));
   return density;
 }
 
