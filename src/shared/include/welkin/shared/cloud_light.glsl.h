@@ -15,7 +15,7 @@ WK_FN float cloudPhase(float cosTheta, float sharpness) {
   return mix(phaseHenyeyGreenstein(cosTheta, kBackwardG * sharpness), phaseHenyeyGreenstein(cosTheta, kForwardG * sharpness), kForwardShare);
 }
 
-// Phase values of three scattering octaves (Wrenninge et al. 2013, "Oz: the great and volumetric"): each is dimmer, broader and
+// Phase values of three scattering octaves (Wrenninge et al. 2013, "Oz: the great and volumetric"): each is broader and
 // reaches deeper than the one before. Constant along a ray.
 struct CloudPhases {
   float single;
@@ -23,15 +23,15 @@ struct CloudPhases {
   float third;
 };
 WK_FN CloudPhases cloudPhases(float cosTheta) {
-  return WK_NEW(CloudPhases, cloudPhase(cosTheta, F(1.0)), F(0.5) * cloudPhase(cosTheta, F(0.6)), F(0.25) * cloudPhase(cosTheta, F(0.35)));
+  return WK_NEW(CloudPhases, cloudPhase(cosTheta, F(1.0)), cloudPhase(cosTheta, F(0.6)), cloudPhase(cosTheta, F(0.35)));
 }
 
 // Share of diffuse light that arrives at a sun depth: diffusion decays as 1 / (1 + 0.75 (1 - g) tau), not exponentially (two-stream
-// solution), so a thick cloud is grey underneath, not black. With g = 0.833 that is 1 / (1 + tau / 8), one minus the stored form.
+// solution), so a thick cloud is grey underneath, not black. With g = 0.73 that is 1 / (1 + tau / 5), one minus the stored form.
 WK_FN float skyShare(float encoded) { return F(1.0) - encoded; }
 
 // In-scatter of sunlight at a point whose sun depth is stored as `encoded`. The diffuse part builds up over the first optical depths.
-WK_CONST float kDiffuseGain = F(3.7);
+WK_CONST float kDiffuseGain = F(2.2);
 WK_FN float sunSource(CloudPhases phases, float encoded) {
   float quarter = exp2(decodeDepth(encoded) * F(-0.36067376));  // exp(-tau / 4)
   float half_ = quarter * quarter;

@@ -3,8 +3,8 @@
 #include "welkin/shared/prelude.glsl.h"
 WK_BEGIN
 
-// The sun's optical depth is stored as g = tau / (tau + 8): steps of 1e-4 for thin air, of 0.02 at depth 100.
-WK_CONST float kDepthScale = F(8.0);
+// The sun's optical depth is stored as g = tau / (tau + 5): steps of 1e-4 for thin air, of 0.03 at depth 100.
+WK_CONST float kDepthScale = F(5.0);
 WK_FN float encodeDepth(float tau) { return tau / (tau + kDepthScale); }
 WK_FN float decodeDepth(float g) { return kDepthScale * g / max(F(1.0) - g, F(1.0e-4)); }
 
