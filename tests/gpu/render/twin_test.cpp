@@ -26,10 +26,10 @@ constexpr std::size_t kRows = 10240;  // 160 groups of 64
 
 class Twins : public GlTest {
  protected:
-  // Runs a test shader over `inputs`; `perRow` answers each.
+  // Runs a test shader over `inputs`, `rowsPerGroup` to a work group; `perRow` answers each.
   template <class Answer, class Input>
   std::vector<Answer> run(const std::string& shader, const std::vector<Input>& inputs, std::size_t perRow, const gpu::Defines& defines = {},
-                          GLuint binding = 0, const std::function<void(const gpu::Program&)>& prepare = {}) {
+                          GLuint binding = 0, const std::function<void(const gpu::Program&)>& prepare = {}, std::size_t rowsPerGroup = 64) {
     auto program = gpu::Program::compute(WELKIN_SOURCE_DIR "/tests/gpu/shaders/" + shader, defines);
     EXPECT_TRUE(program.ok()) << (program.ok() ? "" : program.error().message);
     std::vector<Answer> answers(inputs.size() * perRow);
@@ -40,7 +40,7 @@ class Twins : public GlTest {
     in.bind(GL_SHADER_STORAGE_BUFFER, binding);
     out.bind(GL_SHADER_STORAGE_BUFFER, binding + 1);
     if (prepare) prepare(*program);
-    program->dispatch(static_cast<unsigned>(inputs.size() / 64));
+    program->dispatch(static_cast<unsigned>(inputs.size() / rowsPerGroup));
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     out.download(0, std::as_writable_bytes(std::span(answers)));
     return answers;
@@ -159,22 +159,24 @@ TEST_F(Twins, NoiseAndCloudLight) {
   EXPECT_LE(worst[9], 5e-5);
 }
 
-// Positions where the source has something to say: within its altitudes, around the whole planet, at every level.
-std::vector<glm::uvec4> cloudPlaces(const RootFrame& root, double base_m, double top_m, glm::dvec3 centre, double spread, std::uint32_t seed) {
-  Random32 random(seed);
+// Bricks where the source has something to say: around places within its altitudes, at every level.
+std::vector<glm::uvec4> cloudBricks(const RootFrame& root, const DensitySource& source, glm::dvec3 centre, double spread) {
+  Random32 random(3);
   const auto unit = [&] { return double(random()) * 0x1p-32; };
-  std::vector<glm::uvec4> places;
-  while (places.size() < kRows) {
+  std::vector<glm::uvec4> bricks;
+  while (bricks.size() < 320) {
     glm::dvec3 d{unit() * 2 - 1, unit() * 2 - 1, unit() * 2 - 1};
     if (glm::length(d) < 0.1 || glm::length(d) > 1) continue;
     d = glm::normalize(centre + spread * glm::normalize(d));
-    const double margin_m = 0.1 * (top_m - base_m);
-    const auto p = root.toFixed(d * (root.planetRadius_m + base_m - margin_m + (top_m - base_m + 2 * margin_m) * unit()));
-    places.emplace_back(p, random() % 25);
+    const auto p = root.toFixed(d * (root.planetRadius_m + source.base_m() + (source.top_m() - source.base_m()) * unit()));
+    const std::uint32_t level = random() % 25;
+    const auto corner = nodeCorner(p, level);
+    if (!source.bounds(corner, level).empty()) bricks.emplace_back(corner, level);
   }
-  return places;
+  return bricks;
 }
 
+// What the GPU fills a brick with, against density() at each of its samples.
 TEST_F(Twins, DensityOfEverySource) {
   const RootFrame root = RootFrame::enclosing(kEarthRadius_m, 20'000);
   const glm::dvec3 ball = directionTo(10, 20) * (kEarthRadius_m + 5000);
@@ -183,31 +185,36 @@ TEST_F(Twins, DensityOfEverySource) {
   for (const auto& [name, cloudSource] : sources) {
     Scene scene = smallEarth();
     scene.clouds->sources = {cloudSource};
-    auto source = std::move(makeDensitySource(scene, root).value());
+    const auto source = std::move(makeDensitySource(scene, root).value());
     const bool isBall = source->shader().find("sphere") != std::string::npos;
-    const auto places = cloudPlaces(root, source->base_m(), source->top_m(), isBall ? glm::normalize(ball) : glm::dvec3(0), isBall ? 1e-3 : 1, 3);
+    const auto bricks = cloudBricks(root, *source, isBall ? glm::normalize(ball) : glm::dvec3(0), isBall ? 5e-4 : 1);
     const auto words = source->shaderParams();
     const auto params = std::move(gpu::Buffer::create(account, "parameters", std::max<std::size_t>(words.size() * 4, 32)).value());
     params.upload(0, words);
-    const auto answers = run<float>("density_twin.comp", places, 1, {{"SOURCE_SHADER", source->shader()}}, 8,
-                                    [&](const gpu::Program&) { params.bind(GL_SHADER_STORAGE_BUFFER, WK_SOURCE_PARAMS_BINDING); });
+    const auto answers = run<float>("density_twin.comp", bricks, 512, {{"SOURCE_SHADER", source->shader()}}, 8,
+                                    [&](const gpu::Program&) { params.bind(GL_SHADER_STORAGE_BUFFER, WK_SOURCE_PARAMS_BINDING); }, 1);
     double worst = 0;
-    std::size_t cloudy = 0, disagree = 0, partly = 0;
-    for (std::size_t i = 0; i < kRows; ++i) {
-      const float cpu = source->density({places[i].x, places[i].y, places[i].z}, places[i].w) / source->maxExtinction();
-      const float gpu = answers[i] / source->maxExtinction();
-      worst = std::max(worst, double(std::abs(cpu - gpu)));
-      cloudy += cpu > 0;
+    std::size_t partly = 0, zero = 0, off = 0;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      const glm::uvec4 brick = bricks[i / 512];
+      const auto at = static_cast<uint>(i % 512);
+      const auto p = brickSample({brick.x, brick.y, brick.z}, brick.w, {at & 7u, at >> 3 & 7u, at >> 6});
+      const float cpu = source->density(p, brick.w) / source->maxExtinction(), gpu = answers[i] / source->maxExtinction();
+      const double difference = std::abs(cpu - gpu);
+      worst = std::max(worst, difference);
+      off += difference > 1e-5;
       partly += cpu > 0 && cpu < 1;
-      disagree += (cpu > 0) != (gpu > 0);
+      zero += cpu == 0;
     }
-    std::printf("%-7s %5zu cloudy, %5zu partly, %zu in doubt, greatest difference %.1e of the maximum\n", name, cloudy, partly, disagree, worst);
-    EXPECT_GT(partly, isBall ? 500u : 1000u) << "the comparison must meet cloud";
-    EXPECT_LT(cloudy, kRows);
-    // A third of a step of the 16 bits that a brick keeps is 5e-6; divisions (2.5 ulp) and the root of the altitude (0.03 m) through the
-    // steepest ramp give up to 1e-5.
-    EXPECT_LE(worst, 1e-5) << name;
-    EXPECT_LE(disagree, kRows / 1000) << "where one side is 0 the other is below 1e-5";
+    const double n = double(answers.size());
+    std::printf("%-7s %4.1f %% partly cloudy, %4.1f %% clear, greatest difference %.1e of the maximum, %zu over 1e-5\n", name, 100 * double(partly) / n,
+                100 * double(zero) / n, worst, off);
+    EXPECT_GT(double(partly), 0.05 * n) << "the comparison must meet cloud";
+    EXPECT_GT(double(zero), 0.02 * n) << "and clear air";
+    // A brick keeps 16 bits, steps of 1.5e-5. The column's noise differs from a point's in the order of its sums, by up to 2e-6; the ramp of
+    // the sharpest layer (softness 0.06 and less, where its octaves are shown) makes 4e-5 of that. Few samples lie on such a ramp.
+    EXPECT_LE(worst, 5e-5) << name;
+    EXPECT_LE(double(off), 0.003 * n) << name;
   }
 }
 
