@@ -17,7 +17,7 @@ SIZE = [320, 180]
 FOV_DEG = 58.0
 FRAMES = 660
 TOP_M, END_M = 1_000_000.0, 2.0
-BETWEEN_LAYERS_M = 8_500.0  # below the cirrus, above the low clouds
+BETWEEN_LAYERS_M = 7_500.0  # below the cirrus, above the low clouds
 GLIDE = 1.1                 # metres forward for a metre of sinking away from the slow part
 SPEED_FLOOR_M = 2.0        # altitude below which the ground speed no longer shrinks
 

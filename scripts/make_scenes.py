@@ -13,7 +13,7 @@ from globe import RADIUS_M, subsolar_deg, write_or_check
 # (mean cover 0.60 within 40 degrees of the heading and 250 km): two thirds of the pixels from 9 km up are cloudy.
 SITE = {"latitude_deg": -41.5, "longitude_deg": -23.0}
 HEADING_DEG = 240.0
-SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 300.0, 48.0  # the poses look 60 degrees to the left of the sun
+SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 300.0, 32.0  # the poses look 60 degrees to the left of the sun
 EXPOSURE_EV = 0.0
 
 PLANET = {"radius_m": RADIUS_M, "albedo": [0.06, 0.07, 0.10]}
@@ -55,22 +55,22 @@ def scene(name, data, quality, views):
 
 # Every view of the eight documented pictures stands where the cover picture has the cloud that it is about.
 EARTH_VIEWS = {
-    "disc": view(30_000_000, -90, latitude_deg=-16.0, longitude_deg=-34.0, heading_deg=0, fov_deg=26),
-    "limb": view(250_000, -15, latitude_deg=-48.0, longitude_deg=-20.0, heading_deg=335, fov_deg=40),
-    "orbit": view(400_000, -25),
-    "cyclone": view(550_000, -62, latitude_deg=-43.5, longitude_deg=-48.5, heading_deg=345),
-    "layers": view(9_000, -3),
-    "inside": view(2_000, 6, latitude_deg=-32.2, longitude_deg=-30.5, heading_deg=60),
-    "overcast": view(2, 12, latitude_deg=-32.2, longitude_deg=-30.5, heading_deg=300),
-    "sunset": view(2, 9, latitude_deg=-32.5, longitude_deg=-154.0, heading_deg=104, fov_deg=50),
+    "disc": view(30_000_000, -90, latitude_deg=-8.0, longitude_deg=-52.0, heading_deg=0, fov_deg=26),
+    "limb": view(250_000, -13, latitude_deg=-48.0, longitude_deg=-20.0, heading_deg=335, fov_deg=40, exposure_ev=-0.6),
+    "orbit": view(400_000, -25, exposure_ev=-0.6),
+    "cyclone": view(550_000, -62, latitude_deg=-43.5, longitude_deg=-48.5, heading_deg=345, exposure_ev=-0.6),
+    "layers": view(9_000, -7, heading_deg=262.0, exposure_ev=-0.7),
+    "inside": view(1_900, 7, latitude_deg=42.6248, longitude_deg=-47.0166, heading_deg=150, exposure_ev=-0.7),
+    "overcast": view(2, 21, latitude_deg=30.9652, longitude_deg=-71.6715, heading_deg=130, exposure_ev=-0.1),
+    "sunset": view(2, 10, latitude_deg=51.9009, longitude_deg=-151.9614, heading_deg=98, fov_deg=58),
 }
 ZOOM_FOVS_DEG = [58, 30, 10, 3, 1, 0.3, 0.1]
 ZOOM_VIEWS = {f"zoom-{fov:g}": view(400_000, -25, fov_deg=fov) for fov in ZOOM_FOVS_DEG}
 
 POSES = {
     "space": view(1.25 * RADIUS_M, -90),  # 2.25 radii from the centre
-    "orbit": view(400_000, -25),
-    "near": view(9_000, -3),
+    "orbit": view(400_000, -25, exposure_ev=-0.6),
+    "near": view(9_000, -12, exposure_ev=-0.7),
     "ground": view(1.8, 15),
 }
 
