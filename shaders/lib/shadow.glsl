@@ -30,7 +30,8 @@ float sunDepth(dvec3 start_planet, float skip_m) {
     bool empty;
     do {  // on to the next brick that is not empty
       uvec3 p = walkTo(walk, t);
-      uint level = detailAt(kShadowReach * tree.rootSize_m / max(t, 1.0), tree.depth).level;
+      float reach = min(kShadowReach / max(t, 1.0), tree.detail / max(fromCentre - t, tree.sampleNear_m));  // not finer than the view sees
+      uint level = detailAt(reach * tree.rootSize_m, tree.depth).level;
       word = lookUp(p, level, mapLevelAt(tree.rootSize_m / (fromCentre + t), tree.mapBase, tree.depth));
       at = wordLevel(word);
       steps = nodeSteps(p, at);

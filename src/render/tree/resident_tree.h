@@ -16,7 +16,7 @@ namespace welkin {
 // How a byte budget is divided among the tree's parts.
 struct TreeLayout {
   std::uint32_t depth = 16, mapBase = 6;
-  std::uint32_t textures = 1, layersPerTexture = 1;  // of 2048 bricks, 4 MiB
+  std::uint32_t textures = 1, layersPerTexture = 1;  // of 1024 bricks, 2 MiB
   std::uint32_t bricks = 0, groups = 0;
   // What is left after `bytes`-sized other things; bricks == 0: not enough for a single layer.
   static TreeLayout fit(std::uint64_t bytes, std::uint32_t depth);

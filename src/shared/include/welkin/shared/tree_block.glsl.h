@@ -52,15 +52,16 @@ WK_FN uint mapEntry(uvec3 cell, uint level, uint mapBase) {
 }
 WK_FN uint firstNode(uint mapBase, uint depth) { return (depth - mapBase + 1u) * kMapCells; }
 
-// Brick textures: 64 x 32 bricks a layer, at most 256 layers (1 GiB of RG16) a texture.
-WK_CONST uint kAtlasX = 64u;
-WK_CONST uint kAtlasY = 32u;
+// Brick textures: 4 x 256 bricks a layer, at most 256 layers (512 MiB of RG16) a texture. Narrow, because software GL keeps a texture row
+// by row: a brick's slice then lies within 1 KiB instead of 16.
+WK_CONST uint kAtlasX = 4u;
+WK_CONST uint kAtlasY = 256u;
 WK_CONST uint kAtlasLayers = 256u;
-WK_CONST uint kBricksPerLayer = 2048u;
+WK_CONST uint kBricksPerLayer = 1024u;
 
 // First texel of a brick, counted within its texture.
 WK_FN uvec3 brickTexel(uint brickInTexture) {
-  return uvec3(brickInTexture & 63u, (brickInTexture >> 6u) & 31u, brickInTexture >> 11u) * 8u;
+  return uvec3(brickInTexture & 3u, (brickInTexture >> 2u) & 255u, brickInTexture >> 10u) * 8u;
 }
 
 // Which level a ray samples at distance d [m], and how much of its parent is mixed in: floor and fraction of log2(K root / d).
