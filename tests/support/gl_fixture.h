@@ -46,8 +46,8 @@ class GlTest : public ::testing::Test {
   }
   void TearDown() override {
     if (!context) return;
-    EXPECT_EQ(context->debugMessages(), messagesBefore_)
-        << "KHR_debug must stay silent; among the first messages: " << (context->firstMessages().empty() ? "" : context->firstMessages().back());
+    EXPECT_EQ(context->debugMessages(), messagesBefore_) << "KHR_debug must stay silent; among the first messages: "
+                                                         << (context->firstMessages().empty() ? "" : context->firstMessages().back());
   }
   gpu::Context* context = nullptr;
 

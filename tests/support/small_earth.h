@@ -35,7 +35,8 @@ inline Scene bareBall() {
   return scene;
 }
 
-inline View viewAt(double latitude_deg, double longitude_deg, double altitude_m, double heading_deg, double pitch_deg, double fov_deg = 58) {
+inline View viewAt(double latitude_deg, double longitude_deg, double altitude_m, double heading_deg, double pitch_deg,
+                   double fov_deg = 58) {
   return toView({latitude_deg, longitude_deg, altitude_m, heading_deg, pitch_deg, 0, fov_deg, {}}, kEarthRadius_m);
 }
 

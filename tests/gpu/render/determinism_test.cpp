@@ -14,13 +14,13 @@ using namespace test;
 namespace fs = std::filesystem;
 using Determinism = GlTest;
 
-constexpr int kFrames = 24;
+constexpr int kFrames = 24, kWidth = 32, kHeight = 18;     // so small that a frame is over before a delayed worker is
 constexpr const char* kOutput = "WELKIN_TEST_FLIGHT_OUT";  // a child process draws its flight into this file
 
 // A cold start in fast motion: every frame streams, generates, lights and reprojects. All pictures, one after another.
 std::string flight(gpu::Context& context, std::uint32_t jitterSeed) {
   const auto renderer =
-      makeRenderer(context, quickEarth(), {.width = 96, .height = 54, .bricksPerFrame = 128, .workerJitterSeed = jitterSeed});
+      makeRenderer(context, quickEarth(), {.width = kWidth, .height = kHeight, .bricksPerFrame = 32, .workerJitterSeed = jitterSeed});
   if (!renderer) return {};
   std::string pictures;
   std::uint64_t generated = 0, lit = 0;
@@ -30,8 +30,8 @@ std::string flight(gpu::Context& context, std::uint32_t jitterSeed) {
     pictures.append(image.rgba.begin(), image.rgba.end());
     generated += stats.bricksGenerated, lit += stats.bricksLit;
   }
-  EXPECT_GT(generated, 1000u) << "the flight must stream";
-  EXPECT_GT(lit, 500u);
+  EXPECT_GT(generated, 500u) << "the flight must stream";
+  EXPECT_GT(lit, 50u);
   EXPECT_GT(contrast(renderer->image()), 0.05);
   return pictures;
 }
@@ -41,7 +41,7 @@ void expectSame(const std::string& a, const std::string& b, const char* what) {
   ASSERT_FALSE(a.empty());
   const std::size_t frame = a.size() / kFrames;
   for (std::size_t i = 0; i < a.size(); ++i)
-    ASSERT_EQ(a[i], b[i]) << what << ": frame " << i / frame << ", pixel " << i % frame / 4 % 96 << "," << i % frame / 4 / 96;
+    ASSERT_EQ(a[i], b[i]) << what << ": frame " << i / frame << ", pixel " << i % frame / 4 % kWidth << "," << i % frame / 4 / kWidth;
 }
 
 // The driver reads LP_NUM_THREADS when its first context is made: another process.
@@ -72,7 +72,7 @@ TEST_F(Determinism, DISABLED_Child) {
 
 TEST_F(Determinism, DelaysInTheWorkerChangeNoPicture) {
   const std::string plain = flight(*context, 0);
-  expectSame(plain, flight(*context, 7), "random delays of up to 4 ms before each step");
+  for (const std::uint32_t seed : {7u, 8u}) expectSame(plain, flight(*context, seed), "random delays of up to 4 ms before each step");
   // and two frames are not the same picture: a comparison of blank pictures would pass
   EXPECT_NE(plain.substr(0, plain.size() / kFrames), plain.substr(plain.size() - plain.size() / kFrames));
 }

@@ -23,7 +23,8 @@ inline Scene quickEarth(double detail = 8) {
   return scene;
 }
 
-inline std::unique_ptr<Renderer> makeRenderer(gpu::Context& context, const Scene& scene, RenderSettings settings = {.width = 128, .height = 72}) {
+inline std::unique_ptr<Renderer> makeRenderer(gpu::Context& context, const Scene& scene,
+                                              RenderSettings settings = {.width = 128, .height = 72}) {
   settings.timing = false;
   auto made = Renderer::create(context, scene, settings);
   EXPECT_TRUE(made.ok()) << made.error().message;
@@ -37,8 +38,8 @@ inline View sideways(int frame, double step_m) {
 }
 
 struct PixelError {
-  double rmse = 0;       // 0..1
-  double shareOver1 = 0; // of pixels whose greatest difference is over 1 of 255
+  double rmse = 0;        // 0..1
+  double shareOver1 = 0;  // of pixels whose greatest difference is over 1 of 255
   int max_255 = 0;
 };
 inline PixelError pixelError(const Image8& a, const Image8& b) {

@@ -29,57 +29,109 @@ struct BlockLayout {
   std::string array;                          // a member of the block's unsized array, whose stride is `size`
 };
 
-#define AT(prefix, type, member) {prefix #member, offsetof(type, member)}
+#define AT(prefix, type, member) \
+  { prefix #member, offsetof(type, member) }
 
 // By the block's name in GLSL. Nested arrays are told by their first and last element.
 const std::map<std::string, BlockLayout>& blocks() {
   static const std::map<std::string, BlockLayout> all{
       {"TreeUniforms",
-       {{AT("tree.", TreeBlock, half_m), AT("tree.", TreeBlock, stepsPerMetre), AT("tree.", TreeBlock, sunDir), AT("tree.", TreeBlock, mapCentre),
-         AT("tree.", TreeBlock, stepLength_m), AT("tree.", TreeBlock, rootSize_m), AT("tree.", TreeBlock, detail),
-         AT("tree.", TreeBlock, maxExtinction_per_m), AT("tree.", TreeBlock, bandBase_m), AT("tree.", TreeBlock, bandTop_m),
-         AT("tree.", TreeBlock, planetRadius_m), AT("tree.", TreeBlock, step), AT("tree.", TreeBlock, depth), AT("tree.", TreeBlock, mapBase),
-         AT("tree.", TreeBlock, atlasDepthInverse), AT("tree.", TreeBlock, firstNode), AT("tree.", TreeBlock, shadowTop_m),
-         AT("tree.", TreeBlock, sampleNear_m), AT("tree.", TreeBlock, bricksPerTexture)},
-        sizeof(TreeBlock), ""}},
+       {{AT("tree.", TreeBlock, half_m), AT("tree.", TreeBlock, stepsPerMetre), AT("tree.", TreeBlock, sunDir),
+         AT("tree.", TreeBlock, mapCentre), AT("tree.", TreeBlock, stepLength_m), AT("tree.", TreeBlock, rootSize_m),
+         AT("tree.", TreeBlock, detail), AT("tree.", TreeBlock, maxExtinction_per_m), AT("tree.", TreeBlock, bandBase_m),
+         AT("tree.", TreeBlock, bandTop_m), AT("tree.", TreeBlock, planetRadius_m), AT("tree.", TreeBlock, step),
+         AT("tree.", TreeBlock, depth), AT("tree.", TreeBlock, mapBase), AT("tree.", TreeBlock, atlasDepthInverse),
+         AT("tree.", TreeBlock, firstNode), AT("tree.", TreeBlock, shadowTop_m), AT("tree.", TreeBlock, sampleNear_m),
+         AT("tree.", TreeBlock, bricksPerTexture)},
+        sizeof(TreeBlock),
+        ""}},
       {"CameraUniforms",
-       {{AT("camera.", CameraBlock, position), AT("camera.", CameraBlock, forward), AT("camera.", CameraBlock, right), AT("camera.", CameraBlock, up)},
-        sizeof(CameraBlock), ""}},
+       {{AT("camera.", CameraBlock, position), AT("camera.", CameraBlock, forward), AT("camera.", CameraBlock, right),
+         AT("camera.", CameraBlock, up)},
+        sizeof(CameraBlock),
+        ""}},
       {"CounterBuffer",
        {{AT("counters.", Counters, nanPixels), AT("counters.", Counters, holes), AT("counters.", Counters, marchedPixels),
          AT("counters.", Counters, rejectedPixels), AT("counters.", Counters, cells), AT("counters.", Counters, samples)},
-        sizeof(Counters), ""}},
+        sizeof(Counters),
+        ""}},
       {"Results",
-       {{AT("results[0].", GpuBrickResult, minBits), AT("results[0].", GpuBrickResult, maxBits), AT("results[0].", GpuBrickResult, minAltitudeBits),
-         AT("results[0].", GpuBrickResult, maxAltitudeBits)},
-        sizeof(GpuBrickResult), "results[0].minBits"}},
+       {{AT("results[0].", GpuBrickResult, minBits), AT("results[0].", GpuBrickResult, maxBits),
+         AT("results[0].", GpuBrickResult, minAltitudeBits), AT("results[0].", GpuBrickResult, maxAltitudeBits)},
+        sizeof(GpuBrickResult),
+        "results[0].minBits"}},
       {"PixelList",
-       {{AT("", PixelListHead, groups), AT("", PixelListHead, one), AT("", PixelListHead, one_), AT("", PixelListHead, count),
+       {{AT("", PixelListHead, groups),
+         AT("", PixelListHead, one),
+         AT("", PixelListHead, one_),
+         AT("", PixelListHead, count),
          {"pixels[0]", sizeof(PixelListHead)}},
-        4, "pixels[0]"}},
+        4,
+        "pixels[0]"}},
       {"SourceParams",
-       {{AT("sourceHeader.", CloudHeader, layerCount), AT("sourceHeader.", CloudHeader, coverMips), AT("sourceHeader.", CloudHeader, typeShift),
-         AT("sourceHeader.", CloudHeader, seed), AT("sourceHeader.", CloudHeader, step_m), AT("sourceHeader.", CloudHeader, radius_steps),
-         AT("sourceHeader.", CloudHeader, radius2Low), AT("sourceHeader.", CloudHeader, radius2High), AT("sourceHeader.", CloudHeader, lowest_m),
-         AT("sourceHeader.", CloudHeader, highest_m), AT("sourceHeader.", CloudHeader, footprint_m[0]), AT("sourceHeader.", CloudHeader, coverMip[0]),
-         AT("sourceHeader.", CloudHeader, coverEdge[0]), AT("sourceHeader.", CloudHeader, coverOffset[0]),
+       {{AT("sourceHeader.", CloudHeader, layerCount),
+         AT("sourceHeader.", CloudHeader, coverMips),
+         AT("sourceHeader.", CloudHeader, typeShift),
+         AT("sourceHeader.", CloudHeader, seed),
+         AT("sourceHeader.", CloudHeader, step_m),
+         AT("sourceHeader.", CloudHeader, radius_steps),
+         AT("sourceHeader.", CloudHeader, radius2Low),
+         AT("sourceHeader.", CloudHeader, radius2High),
+         AT("sourceHeader.", CloudHeader, lowest_m),
+         AT("sourceHeader.", CloudHeader, highest_m),
+         AT("sourceHeader.", CloudHeader, footprint_m[0]),
+         AT("sourceHeader.", CloudHeader, coverMip[0]),
+         AT("sourceHeader.", CloudHeader, coverEdge[0]),
+         AT("sourceHeader.", CloudHeader, coverOffset[0]),
 #define LAYER(member) {"sourceLayers[0]." #member, sizeof(CloudHeader) + offsetof(CloudLayerParams, member)}
-         LAYER(base_m), LAYER(thickness_m), LAYER(invThickness), LAYER(baseFade_m), LAYER(invBaseFade), LAYER(topFade_m), LAYER(invTopFade),
-         LAYER(extinction_per_m), LAYER(coverGain), LAYER(coverBias), LAYER(typeLow), LAYER(typeHigh), LAYER(typeInvRiseLow),
-         LAYER(typeInvRiseHigh), LAYER(typed), LAYER(shift), LAYER(streak), LAYER(seed), LAYER(amplitude), LAYER(gain), LAYER(billow),
-         LAYER(restHigh), LAYER(invSoftness), LAYER(taper), LAYER(topFollowsCover), LAYER(warpShift), LAYER(warp_steps), LAYER(threshold[0]),
-         LAYER(octaves[0]), LAYER(shown[0]), LAYER(spread[0]), LAYER(invSpread2[0]), LAYER(clump[0]), LAYER(filter_m[0]),
+         LAYER(base_m),
+         LAYER(thickness_m),
+         LAYER(invThickness),
+         LAYER(baseFade_m),
+         LAYER(invBaseFade),
+         LAYER(topFade_m),
+         LAYER(invTopFade),
+         LAYER(extinction_per_m),
+         LAYER(coverGain),
+         LAYER(coverBias),
+         LAYER(typeLow),
+         LAYER(typeHigh),
+         LAYER(typeInvRiseLow),
+         LAYER(typeInvRiseHigh),
+         LAYER(typed),
+         LAYER(shift),
+         LAYER(streak),
+         LAYER(seed),
+         LAYER(amplitude),
+         LAYER(gain),
+         LAYER(billow),
+         LAYER(restHigh),
+         LAYER(invSoftness),
+         LAYER(taper),
+         LAYER(topFollowsCover),
+         LAYER(warpShift),
+         LAYER(warp_steps),
+         LAYER(threshold[0]),
+         LAYER(octaves[0]),
+         LAYER(shown[0]),
+         LAYER(spread[0]),
+         LAYER(invSpread2[0]),
+         LAYER(clump[0]),
+         LAYER(filter_m[0]),
 #undef LAYER
          {"sourceCover[0]", sizeof(CloudBlock)}},
-        4, "sourceCover[0]"}},
+        4,
+        "sourceCover[0]"}},
       {"SourceParams/sphere",
        {{AT("sourceSphere.", SphereParams, centreX), AT("sourceSphere.", SphereParams, centreY), AT("sourceSphere.", SphereParams, centreZ),
          AT("sourceSphere.", SphereParams, radius_steps), AT("sourceSphere.", SphereParams, extinction_per_m)},
-        sizeof(SphereParams), ""}},
+        sizeof(SphereParams),
+        ""}},
       {"Jobs",
        {{AT("jobs[0].", GpuBrickJob, x), AT("jobs[0].", GpuBrickJob, y), AT("jobs[0].", GpuBrickJob, z), AT("jobs[0].", GpuBrickJob, level),
          AT("jobs[0].", GpuBrickJob, brick)},
-        sizeof(GpuBrickJob), "jobs[0].x"}},
+        sizeof(GpuBrickJob),
+        "jobs[0].x"}},
       {"Jobs/map", {{{"jobs[0]", 0}}, sizeof(glm::uvec4), "jobs[0]"}},
       {"NodeBuffer", {{{"words[0]", 0}}, sizeof(NodeWords), "words[0]"}},
       {"AirUniforms",
@@ -89,7 +141,8 @@ const std::map<std::string, BlockLayout>& blocks() {
          AT("u_air.", AirBlock, view.muHorizon), AT("u_air.", AirBlock, view.skyEnd), AT("u_air.", AirBlock, view.anchorAltitude_m),
          AT("u_air.", AirBlock, view.anchorOverCentre), AT("u_air.", AirBlock, layers[0].a), AT("u_air.", AirBlock, layers[0].profile),
          AT("u_air.", AirBlock, layers[5].g)},
-        sizeof(AirBlock), ""}},
+        sizeof(AirBlock),
+        ""}},
   };
   return all;
 }
@@ -112,7 +165,8 @@ TEST_F(Layouts, ReflectionAgreesWithOffsetof) {
     const auto program = gpu::Program::compute(variant.path, variant.defines);
     ASSERT_TRUE(program.ok()) << program.error().message;
     const GLuint id = program->id();
-    for (const auto& [blockInterface, memberInterface] : {std::pair{GL_UNIFORM_BLOCK, GL_UNIFORM}, {GL_SHADER_STORAGE_BLOCK, GL_BUFFER_VARIABLE}}) {
+    for (const auto& [blockInterface, memberInterface] :
+         {std::pair{GL_UNIFORM_BLOCK, GL_UNIFORM}, {GL_SHADER_STORAGE_BLOCK, GL_BUFFER_VARIABLE}}) {
       GLint count = 0;
       glGetProgramInterfaceiv(id, blockInterface, GL_ACTIVE_RESOURCES, &count);
       for (int b = 0; b < count; ++b) {
@@ -133,7 +187,9 @@ TEST_F(Layouts, ReflectionAgreesWithOffsetof) {
           if (member.ends_with("[0]") && member != "jobs[0]" && member != "words[0]") {
             EXPECT_EQ(stride, 4) << member;
           }
-          const std::size_t expected = member == layout.array ? layout.size : member == "sourceLayers[0].base_m" ? sizeof(CloudLayerParams) : 0;
+          const std::size_t expected = member == layout.array               ? layout.size
+                                       : member == "sourceLayers[0].base_m" ? sizeof(CloudLayerParams)
+                                                                            : 0;
           if (expected == 0) continue;
           // of an array of structs the top level's, of an array of words its own
           const bool words = member.ends_with("[0]");
@@ -149,7 +205,8 @@ TEST_F(Layouts, ReflectionAgreesWithOffsetof) {
     }
   }
   for (const auto& [block, layout] : blocks())
-    for (const auto& [member, offset] : layout.offset) EXPECT_TRUE(seen.contains(block + " " + member)) << "GL has no " << member << " in " << block;
+    for (const auto& [member, offset] : layout.offset)
+      EXPECT_TRUE(seen.contains(block + " " + member)) << "GL has no " << member << " in " << block;
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ inline std::vector<ShaderVariant> shaderTable() {
       table.push_back({std::string("pass/sky/") + pass + ".comp", airDefines(layers, peak)});
   for (int bits = 0; bits < 16; ++bits) {
     const auto on = [&](int bit) { return std::string(bits >> bit & 1 ? "1" : "0"); };
-    table.push_back({"pass/composite/composite.comp",
-                     {{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_ALBEDO_MAP", on(3)}}});
+    table.push_back(
+        {"pass/composite/composite.comp", {{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_ALBEDO_MAP", on(3)}}});
   }
   return table;
 }

@@ -80,7 +80,8 @@ TEST_F(Twins, AddressesWalksAndLevels) {
   const RootFrame root = RootFrame::enclosing(kEarthRadius_m, 20'000);
   const float stepsPerMetre = float(root.stepsPerMetre());
   const auto rows = randomRows();
-  const auto answers = run<std::uint32_t>("octree_twin.comp", rows, 48, {}, 0, [&](const gpu::Program& p) { p.set("u_stepsPerMetre", stepsPerMetre); });
+  const auto answers =
+      run<std::uint32_t>("octree_twin.comp", rows, 48, {}, 0, [&](const gpu::Program& p) { p.set("u_stepsPerMetre", stepsPerMetre); });
   double worst[20] = {};
   for (std::size_t i = 0; i < kRows; ++i) {
     const uvec3 p{rows[i].place.x, rows[i].place.y, rows[i].place.z};
@@ -95,22 +96,55 @@ TEST_F(Twins, AddressesWalksAndLevels) {
     // 15 goes through exp2, whose last bits may differ: skipped where the level is about to change.
     const float place = kMapReach * std::exp2(x.x * 20);
     const bool atEdge = std::abs(place / std::exp2(std::round(std::log2(place))) - 1) < 1e-4f;
-    const uint integers[20] = {corner.x, corner.y, corner.z, childOctant(p, level), child.x, child.y, child.z, s.x, s.y, s.z, word, wordBrick(word),
-                               wordMaxCode(word), wordLevel(word), wordEmpty(word), atEdge ? gpu[15] : mapLevelAt(std::exp2(x.x * 20), 6, 16),
-                               detailAt(x.y * 70000, 16).level, mapEntry(p >> (32 - mapLevel), mapLevel, 6), brickTexel(p.x & kBrickMask).z,
+    const uint integers[20] = {corner.x,
+                               corner.y,
+                               corner.z,
+                               childOctant(p, level),
+                               child.x,
+                               child.y,
+                               child.z,
+                               s.x,
+                               s.y,
+                               s.z,
+                               word,
+                               wordBrick(word),
+                               wordMaxCode(word),
+                               wordLevel(word),
+                               wordEmpty(word),
+                               atEdge ? gpu[15] : mapLevelAt(std::exp2(x.x * 20), 6, 16),
+                               detailAt(x.y * 70000, 16).level,
+                               mapEntry(p >> (32 - mapLevel), mapLevel, 6),
+                               brickTexel(p.x & kBrickMask).z,
                                levelMask(level)};
     for (int k = 0; k < 20; ++k) ASSERT_EQ(gpu[k], integers[k]) << "integer " << k << " of row " << i;
     const Walk walk = startWalk(dvec3(p) + 0.5, dir, stepsPerMetre);
     const uvec3 to = walkTo(walk, t);
     const vec3 local = nodeLocal(p, level), ahead = glm::step(0.0f, dir);
-    const float floats[20] = {walk.dirSteps.x, walk.dirSteps.y, walk.dirSteps.z, nodeExit(nodeSteps(p, level), levelSteps(level), ahead, (2.0f * ahead - 1.0f) * vec3(x) * 1e6f), local.x, local.y,
-                              local.z, walkError(t, x.x), pastExit(t, x.x), levelSteps(level), detailAt(x.y * 70000, 16).parentWeight,
-                              uintBitsToFloat(walk.origin.x), uintBitsToFloat(to.x), uintBitsToFloat(to.y), uintBitsToFloat(to.z),
-                              walk.metrePerStep.x, walk.metrePerStep.y, encodeDepth(x.z * 200), decodeDepth(x.w), maxCodeValue(p.y & 31u)};
+    const float floats[20] = {walk.dirSteps.x,
+                              walk.dirSteps.y,
+                              walk.dirSteps.z,
+                              nodeExit(nodeSteps(p, level), levelSteps(level), ahead, (2.0f * ahead - 1.0f) * vec3(x) * 1e6f),
+                              local.x,
+                              local.y,
+                              local.z,
+                              walkError(t, x.x),
+                              pastExit(t, x.x),
+                              levelSteps(level),
+                              detailAt(x.y * 70000, 16).parentWeight,
+                              uintBitsToFloat(walk.origin.x),
+                              uintBitsToFloat(to.x),
+                              uintBitsToFloat(to.y),
+                              uintBitsToFloat(to.z),
+                              walk.metrePerStep.x,
+                              walk.metrePerStep.y,
+                              encodeDepth(x.z * 200),
+                              decodeDepth(x.w),
+                              maxCodeValue(p.y & 31u)};
     for (int k = 0; k < 20; ++k) {
       // 11 to 14 are integers in disguise
       const bool integer = k >= 11 && k <= 14;
-      worst[k] = std::max(worst[k], integer ? (gpu[20 + k] == std::bit_cast<uint>(floats[k]) ? 0.0 : 1e9) : ulps(uintBitsToFloat(gpu[20 + k]), floats[k]));
+      worst[k] = std::max(
+          worst[k], integer ? (gpu[20 + k] == std::bit_cast<uint>(floats[k]) ? 0.0 : 1e9) : ulps(uintBitsToFloat(gpu[20 + k]), floats[k]));
     }
   }
   for (int k = 0; k < 20; ++k) {
@@ -138,8 +172,16 @@ TEST_F(Twins, NoiseAndCloudLight) {
     const float n = noise3(p, shift, zShift, x.w);
     const float cosine = float(x.x >> 8) / 8388608.0f - 1, encoded = float(x.y >> 8) / 16777216.0f;
     const CloudPhases phases = cloudPhases(cosine);
-    const float floats[10] = {cellFraction(x.x, shift), n, billowNoise(n, 0.7f), phases.single, phases.second, phases.third, sunSource(phases, encoded),
-                              skySource(encoded), groundSource(1, encoded), cloudShadow(encoded * 20)};
+    const float floats[10] = {cellFraction(x.x, shift),
+                              n,
+                              billowNoise(n, 0.7f),
+                              phases.single,
+                              phases.second,
+                              phases.third,
+                              sunSource(phases, encoded),
+                              skySource(encoded),
+                              groundSource(1, encoded),
+                              cloudShadow(encoded * 20)};
     for (int k = 0; k < 10; ++k) {
       const float value = uintBitsToFloat(gpu[4 + k]);
       worst[k] = std::max(worst[k], double(std::abs(value - floats[k])) / (k < 3 ? 1.0 : std::max(double(std::abs(floats[k])), 1e-3)));
@@ -191,8 +233,9 @@ TEST_F(Twins, DensityOfEverySource) {
     const auto words = source->shaderParams();
     const auto params = std::move(gpu::Buffer::create(account, "parameters", std::max<std::size_t>(words.size() * 4, 32)).value());
     params.upload(0, words);
-    const auto answers = run<float>("density_twin.comp", bricks, 512, {{"SOURCE_SHADER", source->shader()}}, 8,
-                                    [&](const gpu::Program&) { params.bind(GL_SHADER_STORAGE_BUFFER, WK_SOURCE_PARAMS_BINDING); }, 1);
+    const auto answers = run<float>(
+        "density_twin.comp", bricks, 512, {{"SOURCE_SHADER", source->shader()}}, 8,
+        [&](const gpu::Program&) { params.bind(GL_SHADER_STORAGE_BUFFER, WK_SOURCE_PARAMS_BINDING); }, 1);
     double worst = 0;
     std::size_t partly = 0, zero = 0, off = 0;
     for (std::size_t i = 0; i < answers.size(); ++i) {
@@ -207,12 +250,12 @@ TEST_F(Twins, DensityOfEverySource) {
       zero += cpu == 0;
     }
     const double n = double(answers.size());
-    std::printf("%-7s %4.1f %% partly cloudy, %4.1f %% clear, greatest difference %.1e of the maximum, %zu over 1e-5\n", name, 100 * double(partly) / n,
-                100 * double(zero) / n, worst, off);
+    std::printf("%-7s %4.1f %% partly cloudy, %4.1f %% clear, greatest difference %.1e of the maximum, %zu over 1e-5\n", name,
+                100 * double(partly) / n, 100 * double(zero) / n, worst, off);
     EXPECT_GT(double(partly), 0.05 * n) << "the comparison must meet cloud";
     EXPECT_GT(double(zero), 0.02 * n) << "and clear air";
-    // A brick keeps 16 bits, steps of 1.5e-5. The column's noise differs from a point's in the order of its sums, by up to 2e-6; the ramp of
-    // the sharpest layer (softness 0.06 and less, where its octaves are shown) makes 4e-5 of that. Few samples lie on such a ramp.
+    // A brick keeps 16 bits, steps of 1.5e-5. The column's noise differs from a point's in the order of its sums, by up to 2e-6; the ramp
+    // of the sharpest layer (softness 0.06 and less, where its octaves are shown) makes 4e-5 of that. Few samples lie on such a ramp.
     EXPECT_LE(worst, 5e-5) << name;
     EXPECT_LE(double(off), 0.003 * n) << name;
   }

@@ -35,7 +35,8 @@ TEST_F(Shaders, TableIsComplete) {
 
 // A mistake is told with file and line of the file that has it, and a missing include by who wanted it.
 TEST_F(Shaders, MistakesAreTold) {
-  const auto missing = gpu::Program::compute("pass/bricks/generate.comp", {{"BRICK_TEXTURES", "1"}, {"SOURCE_SHADER", "lib/clouds/none.glsl"}});
+  const auto missing =
+      gpu::Program::compute("pass/bricks/generate.comp", {{"BRICK_TEXTURES", "1"}, {"SOURCE_SHADER", "lib/clouds/none.glsl"}});
   ASSERT_FALSE(missing.ok());
   EXPECT_NE(missing.error().message.find("lib/clouds/none.glsl"), std::string::npos) << missing.error().message;
   EXPECT_NE(missing.error().message.find("generate.comp:"), std::string::npos) << missing.error().message;
