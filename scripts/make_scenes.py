@@ -10,7 +10,7 @@ import json
 from globe import RADIUS_M, subsolar_deg, write_or_check
 
 # The benchmark site: broken cloud at the edge of a South Atlantic front (mean cover 0.28 within 20 km), looking along the front
-# (mean cover 0.60 within 40 degrees of the heading and 250 km): two thirds of the pixels from 9 km up are cloudy.
+# (mean cover 0.60 within 40 degrees of the heading and 250 km). From 9 km up, 18 degrees down, over 60 % of the pixels are cloudy.
 SITE = {"latitude_deg": -41.5, "longitude_deg": -23.0}
 HEADING_DEG = 240.0
 SUN_AZIMUTH_DEG, SUN_ELEVATION_DEG = 300.0, 32.0  # the poses look 60 degrees to the left of the sun
@@ -59,7 +59,7 @@ EARTH_VIEWS = {
     "limb": view(250_000, -13, latitude_deg=-48.0, longitude_deg=-20.0, heading_deg=335, fov_deg=40, exposure_ev=-0.6),
     "orbit": view(400_000, -25, exposure_ev=-0.6),
     "cyclone": view(550_000, -62, latitude_deg=-43.5, longitude_deg=-48.5, heading_deg=345, exposure_ev=-0.6),
-    "layers": view(9_000, -7, heading_deg=262.0, exposure_ev=-0.7),
+    "layers": view(9_000, -9, heading_deg=262.0, exposure_ev=-0.7),
     "inside": view(1_900, 7, latitude_deg=42.6248, longitude_deg=-47.0166, heading_deg=150, exposure_ev=-0.7),
     "overcast": view(2, 21, latitude_deg=30.9652, longitude_deg=-71.6715, heading_deg=130, exposure_ev=-0.1),
     "sunset": view(2, 10, latitude_deg=51.9009, longitude_deg=-151.9614, heading_deg=98, fov_deg=58),
@@ -70,7 +70,7 @@ ZOOM_VIEWS = {f"zoom-{fov:g}": view(400_000, -25, fov_deg=fov) for fov in ZOOM_F
 POSES = {
     "space": view(1.25 * RADIUS_M, -90),  # 2.25 radii from the centre
     "orbit": view(400_000, -25, exposure_ev=-0.6),
-    "near": view(9_000, -12, exposure_ev=-0.7),
+    "near": view(9_000, -18, heading_deg=262.0, exposure_ev=-0.7),
     "ground": view(1.8, 15),
 }
 
