@@ -9,6 +9,15 @@
 namespace welkin {
 namespace {
 
+// Height over which a voxel of this size averages a layer's profile. A layer much thinner than a voxel, averaged over one voxel, beats
+// with the lattice: stripes over the disc. Over two voxels the beat is gone to the eye; voxels that resolve the layers keep their sharpness.
+double averaged_m(double voxel_m) {
+  constexpr double kSharp_m = 500, kThin_m = 4000;  // thinner than any layer; thicker than most
+  const double share = std::clamp(std::log(voxel_m / kSharp_m) / std::log(kThin_m / kSharp_m), 0.0, 1.0);
+  return voxel_m * (1 + share);
+}
+
+
 // A profile needs some fade to be integrable and continuous; a metre is below any voxel that is drawn.
 constexpr double kLeastFade_m = 1;
 // Below this part of the fade the profile's mean over a voxel differs from its value at the point by less than 1/160 at a kink.
@@ -160,7 +169,7 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
     const double clump = variance > 0 ? depth * std::pow(dropped / variance, kClumpPower) : 0;
     out.clump[level] = clump > 1e-3 ? static_cast<float>(clump) : 0;
     const bool point = voxel_m < kPointPart * std::min(baseFade, topFade);
-    out.filter_m[level] = point ? 0 : static_cast<float>(voxel_m);
+    out.filter_m[level] = point ? 0 : static_cast<float>(averaged_m(voxel_m));
   }
   return out;
 }

@@ -186,7 +186,7 @@ Bounds LayeredClouds::bounds(glm::uvec3 corner, std::uint32_t level) const {
   const auto altitude = [&](double r2) { return (r2 - radius * radius) / (std::sqrt(r2) + radius) * root_.step_m(); };
   const double a = altitude(near2) - kAltitudeSlack_m, b = altitude(far2) + kAltitudeSlack_m;
   const double low = a > 0 ? a : b < 0 ? -b : 0, high = std::max(std::abs(a), std::abs(b));
-  const double reach = 0.5 * static_cast<double>(block_.header.footprint_m[level]);
+  const double reach = static_cast<double>(block_.header.footprint_m[level]);  // of the profile's mean: at most two voxels, half up, half down
   if (high + reach <= base_m() || low - reach >= top_m()) return {};
 
   Box box{corner, level, static_cast<float>(low), static_cast<float>(high), {1, 1}, {0, 1}};

@@ -28,8 +28,8 @@ TEST_F(Budget, IsKeptInEveryFrameAndUsed) {
       EXPECT_LE(stats.residency.bricks, stats.residency.brickCapacity);
       EXPECT_LE(stats.residency.cpuBytes, budget / 4) << "the CPU's mirror, at most a quarter";
     }
-    // What is left is less than one more layer of 2048 bricks: 2048 * (2048 + 4) bytes and 1536 groups of 64 bytes.
-    EXPECT_GT(stats.bytesUsed + 2048 * 2052 + 1536 * 64 + 8192, budget);
+    // What is left is less than one more layer of 1024 bricks: 1024 * 2048 bytes and 768 groups of 64 bytes.
+    EXPECT_GT(stats.bytesUsed + 1024 * 2048 + 768 * 64 + 8192, budget);
     EXPECT_GT(stats.residency.bricks, 1000u);
     // Every byte has a name: frame targets are the rest.
     std::uint64_t named = 0;

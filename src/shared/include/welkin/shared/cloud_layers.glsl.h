@@ -201,7 +201,7 @@ WK_FN Weather weatherBetween(WK_SOURCE_PARAM uvec3 p, uint level) {
 // Extinction in 1/m of all layers: the densest one counts, so a tower that pierces a deck is no denser for it.
 WK_FN float layersDensity(WK_SOURCE_PARAM uvec3 p, uint level) {
   float altitude_m = cloudAltitude(WK_SOURCE_ARG p);
-  float h = abs(altitude_m), reach = F(0.5) * WK_HEADER.footprint_m[level];
+  float h = abs(altitude_m), reach = WK_HEADER.footprint_m[level];
   if (h + reach <= WK_HEADER.lowest_m || h - reach >= WK_HEADER.highest_m) return F(0.0);
   Weather weather = weatherBetween(WK_SOURCE_ARG p, level);
   if (weather.cover <= F(0.0)) return F(0.0);
