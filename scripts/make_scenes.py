@@ -93,7 +93,7 @@ def files():
     out = {"scenes/earth.json": scene("Earth", "../data", {"budget": "512MiB", "depth": 16, "seed": 1},
                                       {**EARTH_VIEWS, **ZOOM_VIEWS}),
            "benchmarks/orbit-to-ground.scene.json": scene("orbit to ground", "../data",
-                                                          {"budget": "256MiB", "depth": 16, "seed": 1}, {})}
+                                                          {"budget": "256MiB", "depth": 16, "detail": 36, "seed": 1}, {})}
     pose_sun = sun(POSE_SITE, (POSE_HEADING_DEG + 60) % 360, 48.0)
     for name, where in POSES.items():
         out[f"benchmarks/poses/{name}.json"] = {**scene(f"pose {name}", "../../data", POSE_QUALITY, {name: where}), "sun": pose_sun}

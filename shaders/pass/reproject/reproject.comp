@@ -14,6 +14,7 @@ layout(rgba16f, binding = 0) uniform writeonly image2D u_light;
 layout(rg32f, binding = 1) uniform writeonly image2D u_aux;
 uniform ivec2 u_size;
 uniform ivec2 u_offset;
+uniform int u_phase;         // counts frames: the pixel of this rank in each 4 x 4 is marched
 uniform vec3 u_move;         // camera now minus camera then, planet frame, m
 uniform vec3 u_oldForward;   // the last frame's axes; right and up divided by the tangents of half the field of view
 uniform vec3 u_oldRight;
@@ -50,6 +51,13 @@ vec4 catmullRom(sampler2D tex, vec2 at) {
   sum /= weight;
   return vec4(max(sum.rgb, vec3(0.0)), clamp(sum.a, 0.0, 1.0));
 }
+
+// Cloud that the camera is close to changes as it moves, however well it is moved along: nearer than this many frames' motion it is marched
+// anew every frame, and nearer than that every fourth.
+const float kAlways = 40.0;
+const float kEveryFourth = 220.0;
+// Which frame of 16 marches the pixel (x, y) of a 4 x 4: the inverse of kOrder in cloud_passes.cpp.
+const int kRank[16] = int[16](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
 
 // How far interpolation may be off here: contrast of the four texels around, as it will be seen, times the distance from the nearest.
 // A pixel is resampled up to 15 times until it is marched again, so little is much.
@@ -100,6 +108,9 @@ void main() {
     if (max(max(a, b), max(c, d)) > kEdge * min(min(a, b), min(c, d))) valid = false;
     if (resampleError(at.xy) > kResampleError) valid = false;
   }
+  float frames = expected / max(length(u_move), 1e-3);
+  int rank = kRank[(pixel.x & 3) + 4 * (pixel.y & 3)];
+  if (frames < kAlways || (frames < kEveryFourth && ((rank ^ u_phase) & 3) == 0)) valid = false;
   if (!valid) {
     uint slot = atomicAdd(count, 1u);
     pixels[slot] = uint(pixel.x) | (uint(pixel.y) << 16u);

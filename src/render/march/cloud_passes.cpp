@@ -109,6 +109,7 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     aux_[old].bind(WK_CLOUD_AUX_UNIT);
     reproject_.set("u_size", glm::ivec2(width_, height_));
     reproject_.set("u_offset", offset);
+    reproject_.set("u_phase", static_cast<int>((phase_ - 1) % 16));
     reproject_.set("u_move", glm::vec3(view.position_m - last_.position_m));
     reproject_.set("u_oldForward", glm::vec3(last_.forward));
     reproject_.set("u_oldRight", glm::vec3(last_.right / last_.tanX));
