@@ -271,6 +271,8 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
   const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
   std::uint64_t made = 0;
+  std::map<std::uint32_t, BrickJob> lit;
+  int batches = 0;
   const std::uint64_t first = r.step;  // edits asked for before answer to another view: they are applied, but say nothing about this one
   for (int i = 0; i < kMostSettleSteps; ++i) {
     if (r.asked.empty()) r.ask(frame, kSettleBricks, true);
@@ -278,6 +280,8 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     r.asked.pop_front();
     const std::vector<BrickJob> generate = std::move(edits.generate);
     r.apply(std::move(edits), view.position_m, stats);
+    batches += r.last.light.empty() ? 0 : 1;
+    for (const BrickJob& job : r.last.light) lit[job.brick] = job;
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
     r.timer.end();
@@ -286,6 +290,14 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     const double left = r.last.stats.pendingBricks;
     if (progress && !progress(double(made) / std::max(1.0, double(made) + left))) break;
     if (r.last.frame >= first && r.last.stats.settled && generate.empty() && r.asked.empty()) break;
+  }
+  if (r.plan.sun && batches > 1) {
+    // The first bricks were lit when their neighbours were still coarse. Now that all are there, the light of all is made anew.
+    std::vector<BrickJob> all;
+    for (const auto& [brick, job] : lit) all.push_back(job);
+    r.timer.begin("light");
+    r.bricks->light(*r.tree, all);
+    r.timer.end();
   }
   r.clouds->forget();
   stats.passes = r.timer.collect();
