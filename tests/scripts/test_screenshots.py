@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-GOLDEN = ROOT / "tests" / "image" / "golden" / "screenshots"
+GOLDEN = ROOT / "tests" / "image" / "screenshots"
 WELKIN = os.environ.get("WELKIN", str(ROOT / "build" / "welkin"))
 # A small budget keeps a picture at two or three seconds.
 SMALL = ["--size", "160x90", "--budget", "64MiB", "--quiet"]
