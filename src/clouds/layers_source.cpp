@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "welkin/clouds/layer_params.h"
 #include "welkin/clouds/noise_bounds.h"
@@ -70,6 +71,20 @@ float LayeredClouds::maxExtinction() const {
   float greatest = 0;
   for (std::uint32_t i = 0; i < block_.header.layerCount; ++i) greatest = std::max(greatest, block_.layers[i].extinction_per_m);
   return greatest;
+}
+
+// Two samples a texel of the cover, and the largest lumps of every layer are shown; the finer noise is in the stored expectation.
+std::uint32_t LayeredClouds::emptyFrom() const {
+  if (!cover_) return shared::kMaxDepth + 1;
+  const double texel_m = root_.planetRadius_m * std::numbers::pi / 2 / block_.header.coverEdge[0];
+  const auto shown = [&](std::uint32_t level) {
+    for (std::uint32_t i = 0; i < block_.header.layerCount; ++i)
+      if (block_.layers[i].octaves[shared::kMaxDepth] > 0 && block_.layers[i].octaves[level] == 0) return false;
+    return 2 * double{block_.header.footprint_m[level]} <= texel_m;
+  };
+  std::uint32_t level = 0;
+  while (level <= shared::kMaxDepth && !shown(level)) ++level;
+  return level;
 }
 
 std::vector<std::uint32_t> LayeredClouds::shaderParams() const {

@@ -20,6 +20,7 @@ constexpr double kOutsideRamp = 0.1, kHiddenRamp_rad = 0.02;
 
 NodeView::NodeView(const RootFrame& root, const SelectionView& view) : root_(root), view_(view) {
   cameraRadius_m_ = glm::length(view.position_m);
+  drawnAltitude_m_ = glm::length(view.position_m + view.drawnOffset_m) - root.planetRadius_m;
   zenith_ = cameraRadius_m_ > 0 ? view.position_m / cameraRadius_m_ : glm::dvec3(0, 0, 1);
   horizonAngle_rad_ = std::acos(std::min(1.0, root.planetRadius_m / std::max(cameraRadius_m_, 1.0)));
   cosHorizon_ = std::cos(horizonAngle_rad_);
@@ -51,17 +52,20 @@ double NodeView::beyondHorizon_rad(glm::dvec3 centre, double radius_m, double si
   return std::acos(std::clamp(cosine, -1.0, 1.0)) - std::asin(radius_m / c) - reach_rad;
 }
 
+// To the node, but not nearer than the shell that holds cloud.
+double NodeView::leastDistance_m(glm::dvec3 offset_m, double half_m, double altitude_m) const {
+  const double leak_m = 2 * half_m * kLeakNodes;
+  return std::max({glm::length(glm::max(glm::abs(offset_m) - half_m, 0.0)), altitude_m - view_.cloudTop_m - leak_m,
+                   view_.cloudBase_m - leak_m - altitude_m});
+}
+
 NodeView::Seen NodeView::look(const NodeAddress& node, const Seen& above) const {
   const double size_m = root_.nodeSize_m(node.level), half_m = size_m / 2;
   const glm::dvec3 centre = root_.toPlanet(node.corner) + half_m;
   const glm::dvec3 offset = centre - view_.position_m;
-  const glm::dvec3 gap = glm::max(glm::abs(offset) - half_m, 0.0);
-  double distance = glm::length(gap);
-  // Not nearer than the shell that holds cloud.
-  const double leak_m = size_m * kLeakNodes, altitude_m = cameraRadius_m_ - root_.planetRadius_m;
-  distance = std::max({distance, altitude_m - view_.cloudTop_m - leak_m, view_.cloudBase_m - leak_m - altitude_m});
   Seen seen;
-  seen.distance_m = std::max(distance - view_.slack_m, view_.near_m);
+  seen.distance_m = std::max(leastDistance_m(offset, half_m, cameraRadius_m_ - root_.planetRadius_m) - view_.slack_m, view_.near_m);
+  seen.drawn_m = std::max(leastDistance_m(offset - view_.drawnOffset_m, half_m, drawnAltitude_m_) - view_.drawnSlack_m, view_.near_m);
   const double radius_m = half_m * std::sqrt(3.0);
   // A child's sphere is within its parent's: what is beyond stays beyond.
   const double outside_m = beyondPicture_m(offset, radius_m + view_.slack_m);

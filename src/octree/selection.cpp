@@ -90,8 +90,8 @@ class Run {
   void offer(glm::uvec3 corner, std::uint32_t level, std::uint32_t octant, NodeIndex node, std::uint32_t parentAdded,
              const NodeView::Seen& above, float parentKey) {
     const NodeView::Seen seen = look_.look({corner, level}, above);
-    const double raw = seen.distance_m / root_.nodeSize_m(level + 1);
-    double key = raw * seen.penalty;
+    const double size_m = root_.nodeSize_m(level + 1), raw = seen.drawn_m / size_m;
+    double key = seen.distance_m / size_m * seen.penalty;
     key = std::max(key, static_cast<double>(parentKey));  // never before its parent, whatever the rounding
     Candidate c{corner,
                 level,
@@ -120,7 +120,7 @@ class Run {
   }
 
   void accept(const Candidate& c) {
-    const NodeView::Seen seen{0, c.outside != 0, c.hidden != 0, c.deep != 0, 1};
+    const NodeView::Seen seen{0, 0, c.outside != 0, c.hidden != 0, c.deep != 0, 1};
     const GroupIndex existing = childrenOf(c);
     if (!existing.valid() && out_.added.size() >= settings_.maxNewGroups) {
       out_.complete = false;
@@ -139,7 +139,7 @@ class Run {
       if (childLevel >= settings_.depth) return;
       for (std::uint32_t octant = 0; octant < 8; ++octant) {
         const NodeIndex child = nodeOf(existing, octant);
-        if (tree_.node(child).source.empty()) continue;
+        if (tree_.node(child).source.empty() || (childLevel >= settings_.emptyFrom && tree_.node(child).foundEmpty())) continue;
         offer(shared::childCorner(c.corner, c.level, octant), childLevel, octant, child, 0, seen, c.key);
       }
       return;

@@ -5,6 +5,7 @@ namespace {
 
 constexpr double kAhead = 4.5;  // frames: the middle of k + 2 (edits drawn) and k + 7 (their bricks drawn, two frames of queue)
 constexpr double kSlack = 3;    // frames: half of that span, and a fifth for acceleration
+constexpr double kDrawn = 2, kDrawnSlack = 1;  // frames: until the edits are drawn, and for acceleration
 // In frames of motion: data nearer than this would be left behind before it is there. Refining reaches 15 % farther than sampling
 // plus kSlack, which at this distance covers the latency.
 constexpr double kNear = 8;
@@ -35,6 +36,8 @@ SelectionView Motion::view() const {
   SelectionView view;
   view.position_m = camera_.position_m + kAhead * velocity_m_;
   view.slack_m = kSlack * glm::length(velocity_m_);
+  view.drawnOffset_m = (kDrawn - kAhead) * velocity_m_;
+  view.drawnSlack_m = kDrawnSlack * glm::length(velocity_m_);
   view.near_m = near_m_;
   view.forward = camera_.forward;
   view.right = camera_.right;

@@ -14,7 +14,7 @@ namespace {
 // While there is only the root, K would be 0 for a camera inside it. This keeps its logarithm finite, and asks for the root alone
 // from a centimetre on. From nothing it does not glide up but starts where levels begin to show.
 constexpr double kLeastDetail = 1e-9, kGlideFrom = 1.0 / 64;
-constexpr double kGlideUp = 1.02, kGlideDown = 0.95;
+constexpr double kGlideUp = 1.005, kGlideDown = 0.95;
 // A level is sampled from 3/8 of its range on: its child's range is half of it, and the last quarter of that blends with this level.
 constexpr double kSampledFrom = 0.375;
 constexpr std::uint32_t kMaxNewGroups = 1024;  // a step: bounds of their children cost most of it
@@ -29,7 +29,8 @@ struct StreamState::Impl {
         tree(streamSettings.groupCapacity, streamSettings.brickCapacity),
         jobs(tree) {
     if (settings.depth < 1 || settings.depth > shared::kMaxDepth) throw std::invalid_argument("octree: the depth must be 1 to 24");
-    selectionSettings = {settings.depth, settings.brickCapacity, settings.groupCapacity, settings.detailLimit, kMaxNewGroups};
+    selectionSettings = {settings.depth,       settings.brickCapacity, settings.groupCapacity,
+                         settings.detailLimit, kMaxNewGroups,          source.emptyFrom()};
     bounds = [this](glm::uvec3 corner, std::uint32_t level) {
       const Bounds b = source.bounds(corner, level);
       return SourceBounds{b.lo, b.hi};

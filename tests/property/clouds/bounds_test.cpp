@@ -75,6 +75,44 @@ TEST(Bounds, ContainSamplesUnderFullCover) {
   }
 }
 
+// From emptyFrom() on a brick of zeros is taken for an empty node. What may be below it: nothing nearly everywhere, and where the noise
+// that the brick does not show is past the end of its distribution, wisps.
+TEST(EmptyFrom, HardlyAnythingIsBelowABrickOfZeros) {
+  Random random(9);
+  int zeros = 0, samples = 0, cloudy = 0;
+  double sum = 0, all = 0;
+  for (std::uint32_t seed : {1u, 2u}) {
+    const LayeredClouds source = earth(seed);
+    const std::uint32_t from = source.emptyFrom();
+    ASSERT_LE(from, 10u);
+    for (int i = 0; i < 8000; ++i) {
+      const std::uint32_t level = from + random() % 5;
+      const double h = source.base_m() + (source.top_m() - source.base_m()) * static_cast<double>(random() % 1000) / 1000;
+      const glm::uvec3 corner = shared::nodeCorner(kRoot.toFixed(randomDirection(random) * (kRoot.planetRadius_m + h)), level);
+      if (source.bounds(corner, level).empty()) continue;
+      const float stored = source.maxExtinction() / 131070;  // less becomes 0 in 16 bits
+      bool zero = true;
+      for (std::uint32_t k = 0; k < 512 && zero; ++k)
+        zero = source.density(shared::brickSample(corner, level, {k & 7, (k >> 3) & 7, k >> 6}), level) < stored;
+      zeros += zero;
+      for (int k = 0; k < 40; ++k) {
+        const glm::uvec3 p = corner + glm::uvec3(random(), random(), random()) % (shared::levelMask(level) + 1);
+        const float density = source.density(p, shared::kMaxDepth) / source.maxExtinction();
+        all += static_cast<double>(density);
+        if (!zero) continue;
+        ++samples;
+        cloudy += density > 1e-3f;
+        sum += static_cast<double>(density);
+      }
+    }
+  }
+  ASSERT_GT(zeros, 500);
+  std::printf("%d bricks of zeros, %d of %d samples below them over 1e-3 of the maximum, share of all cloud %.2g\n", zeros, cloudy, samples,
+              sum / all);
+  EXPECT_LT(cloudy, samples / 10000);  // two levels coarser, where the largest lumps do not show, 20 times as many
+  EXPECT_LT(sum, 1e-5 * all);          // there 5e-4
+}
+
 TEST(Bounds, ContainSamplesOfSphereAndSlab) {
   expectContained(SphereCloud({{5.6e6, 0, 3e6}, 2e4, 0.01}, kRoot), 5, 4000, {5.6e6, 0, 3e6});
   expectContained(*LayeredClouds::slab({500, 3000, 0.02}, kRoot), 6, 4000);

@@ -32,7 +32,7 @@ SelectionView viewAt(test::Random32& random) {
 }
 
 // Makes the tree what the selection says, all bricks generated.
-void obey(Tree& tree, const Selection& s) {
+void obey(Tree& tree, const Selection& s, ResidentBounds found = {0, 1, 1000, 2000}) {
   TreeChanges changes;
   for (std::uint32_t g = 1; g < s.keep.size(); ++g) {
     if (!tree.isLive({g}) || s.keep[g]) continue;
@@ -45,7 +45,7 @@ void obey(Tree& tree, const Selection& s) {
     const GroupIndex g = tree.split(a.parent.valid() ? a.parent : nodeOf(made[a.parentAdded], a.octant), a.bounds);
     made.push_back(g);
     for (std::uint32_t o = 0; o < 8; ++o)
-      if (tree.node(nodeOf(g, o)).pending) tree.setGenerated(nodeOf(g, o), {0, 1, 1000, 2000});
+      if (tree.node(nodeOf(g, o)).pending) tree.setGenerated(nodeOf(g, o), found);
     tree.publish(g, changes);
   }
 }
@@ -170,6 +170,32 @@ TEST_P(SelectionOf, AGroupStaysUntilItsKeyIsOverTheHysteresis) {
   };
   EXPECT_FALSE(dropped(1.5 / 1.14));  // all have keys under 1.5
   EXPECT_TRUE(dropped(1.5 / 2));
+}
+
+// A node whose brick came back empty is split above the level from which that speaks for all below it, and not from there on.
+TEST_P(SelectionOf, DoesNotSplitWhatWasFoundEmpty) {
+  SelectionView view = viewAt(random);
+  view.position_m = glm::normalize(view.position_m) * (kRadius_m + 10'000);
+  settings.detailLimit = 2;
+  settings.brickCapacity = settings.groupCapacity = 60000;
+  const auto deepest = [&](std::uint32_t emptyFrom) {
+    settings.emptyFrom = emptyFrom;
+    Tree thin{settings.groupCapacity, settings.brickCapacity};
+    thin.plantRoot(bounds({}, 0));
+    thin.setGenerated(kRootNode, {});
+    Selection s;
+    for (int i = 0; i < 20; ++i) {
+      select(thin, kRoot, view, settings, bounds, s);
+      obey(thin, s, {});
+    }
+    EXPECT_TRUE(s.complete && s.added.empty()) << "does not come to rest";
+    std::uint32_t level = 0;
+    for (std::uint32_t g = 1; g < thin.groupPool().highWater(); ++g)
+      if (thin.isLive({g})) level = std::max(level, thin.group(GroupIndex{g}).level + 1u);
+    return level;
+  };
+  EXPECT_EQ(deepest(9), 9u);
+  EXPECT_GT(deepest(shared::kMaxDepth + 1), 9u);
 }
 
 // Hidden and outside are promises: no ray of the picture may reach cloud in such a node.

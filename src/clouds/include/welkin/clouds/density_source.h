@@ -9,6 +9,7 @@
 #include "welkin/core/result.h"
 #include "welkin/physics/root_frame.h"
 #include "welkin/physics/scene.h"
+#include "welkin/shared/octree.glsl.h"
 
 namespace welkin {
 
@@ -34,6 +35,8 @@ class DensitySource {
   virtual float density(glm::uvec3 p, std::uint32_t level) const = 0;
   // Greatest extinction in 1/m that density() can return: bricks store density / maxExtinction in 16 bits.
   virtual float maxExtinction() const = 0;
+  // From this level on the samples of a brick are so dense that, if all are zero, so is all below it but for a negligible rest.
+  virtual std::uint32_t emptyFrom() const { return shared::kMaxDepth + 1; }
   // Altitudes between which cloud can be, in metres, at infinite resolution.
   virtual double base_m() const = 0;
   virtual double top_m() const = 0;

@@ -18,6 +18,7 @@ class LayeredClouds final : public DensitySource {
   Bounds bounds(glm::uvec3 corner, std::uint32_t level) const override;
   float density(glm::uvec3 p, std::uint32_t level) const override;
   float maxExtinction() const override;
+  std::uint32_t emptyFrom() const override;
   double base_m() const override { return static_cast<double>(block_.header.lowest_m); }
   double top_m() const override { return static_cast<double>(block_.header.highest_m); }
   std::string shader() const override { return "lib/clouds/layers.glsl"; }

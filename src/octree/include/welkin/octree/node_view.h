@@ -10,10 +10,13 @@ namespace welkin {
 inline constexpr double kOutsidePenalty = 2;  // outside the picture
 inline constexpr double kHiddenPenalty = 4;   // behind the planet
 
-// A camera for selection. It may move until what is decided now is on the screen: it is then within slack_m of position_m.
+// A camera for selection. It flies on until what is asked for now is generated: it is then within slack_m of position_m. What is there
+// already is drawn before: then it is within drawnSlack_m of position_m + drawnOffset_m.
 struct SelectionView {
   glm::dvec3 position_m{};
   double slack_m = 0;
+  glm::dvec3 drawnOffset_m{};
+  double drawnSlack_m = 0;
   double near_m = 0;  // nothing is refined further than this distance asks for (rays sample as if they were at least this far)
   glm::dvec3 forward{0, 0, -1}, right{1, 0, 0}, up{0, 1, 0};  // unit
   double tanHalfFovX = 0.5, tanHalfFovY = 0.5;
@@ -24,6 +27,7 @@ class NodeView {
  public:
   struct Seen {
     double distance_m = 0;  // at most that to any cloud in the node, and at least near_m
+    double drawn_m = 0;     // the same from where the camera is when it is drawn
     bool outside = false;   // of the picture, enlarged a little
     bool hidden = false;    // behind the planet's horizon
     bool deep = false;      // so far behind it that the whole penalty holds, for all of its children too
@@ -38,12 +42,13 @@ class NodeView {
   double farDistance_m(const NodeAddress& node) const;
 
  private:
+  double leastDistance_m(glm::dvec3 offset_m, double half_m, double altitude_m) const;
   double beyondPicture_m(glm::dvec3 centre_view, double radius_m) const;
   double beyondHorizon_rad(glm::dvec3 centre_planet, double radius_m, double size_m) const;
 
   RootFrame root_;
   SelectionView view_;
-  double cameraRadius_m_;
+  double cameraRadius_m_, drawnAltitude_m_;
   glm::dvec3 zenith_;
   double horizonAngle_rad_, cosHorizon_;
   double slackAngle_rad_;

@@ -20,6 +20,7 @@ struct SelectionSettings {
   std::uint32_t brickCapacity = 0, groupCapacity = 0;  // as StreamSettings
   double detailLimit = 0;                              // 0: none
   std::uint32_t maxNewGroups = 1024;                   // most splits decided at once; the rest is deferred
+  std::uint32_t emptyFrom = shared::kMaxDepth + 1;     // from this level on a node found empty is not split (DensitySource)
 };
 
 // Conservative bounds of a node, from the density source. Must be pure.

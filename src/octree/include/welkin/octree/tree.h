@@ -45,6 +45,7 @@ struct Node {
   ResidentBounds joined;  // own, joined with the children if they are published
   bool pending = false;   // owns a brick that is not generated yet
   bool touched = false;   // its words changed since the last flush
+  bool foundEmpty() const { return !source.empty() && brick.isZero() && !pending; }  // might have held cloud, and did not
 };
 
 struct Group {
