@@ -25,8 +25,11 @@ constexpr double kCloudShell_m = 20'000;         // the octree's root reaches th
 constexpr int kMostSettleSteps = 4000;           // far over the count a tree of the largest budget needs
 constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and their alignment
 
-SelectionCamera selectionCamera(const ViewFrame& view) {
-  return {view.position_m, view.forward, view.right, view.up, view.tanY, view.tanX};
+// A voxel is node / 7: at the far end of its level's range it is kVoxelPixels wide, at the near end twice that.
+double pixelDetail(const ViewFrame& view, int height) { return height / (2 * view.tanY * 7 * kVoxelPixels); }
+
+SelectionCamera selectionCamera(const ViewFrame& view, int height) {
+  return {view.position_m, view.forward, view.right, view.up, view.tanY, view.tanX, pixelDetail(view, height)};
 }
 
 std::uint64_t treeBudget(const Scene& scene, const gpu::MemoryAccount& account, std::uint64_t brickPassBytes) {
@@ -69,7 +72,7 @@ struct Renderer::Impl {
   double shellTop_m() const { return plan.air ? scene.atmosphere->top_m : source ? std::max(source->top_m(), 1.0) : 1.0; }
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
   void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats);
-  float pixelDetail = 1e6f;         // detail past which voxels are finer than pixels
+  float greatestDetail = 1e6f;      // of this picture's pixels
   void updateTreeBlock(glm::dvec3 camera_planet);
   void beginPicture(const ViewFrame& frame);                  // camera, counters, sky
   void endPicture(const ViewFrame& frame, const View& view);  // composite
@@ -134,7 +137,7 @@ void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
   const glm::dvec3 sun = scene.sun ? scene.sun->direction_planet : glm::dvec3(0, 0, 1);
   block.sunDir = glm::vec4(glm::vec3(sun), plan.sun ? 1.0f : 0.0f);
   block.mapCentre = glm::vec4(glm::vec3(camera_planet), 0.0f);
-  block.detail = std::min(last.sampleDetail, pixelDetail);
+  block.detail = std::min(last.sampleDetail, greatestDetail);
   block.maxExtinction_per_m = source->maxExtinction();
   block.bandBase_m = last.bandBase_m;
   block.shadowTop_m = std::max(last.bandTop_m, static_cast<float>(source->top_m()));
@@ -147,7 +150,7 @@ void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
 void Renderer::Impl::ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap) {
   FrameInput input;
   input.frame = step;
-  input.camera = selectionCamera(view);
+  input.camera = selectionCamera(view, settings.height);
   input.maxBricks = maxBricks;
   input.snap = snap;
   input.results = bricks->results(step >= kLatency && !snap ? step - kLatency : step);
@@ -171,8 +174,7 @@ void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameSt
 }
 
 void Renderer::Impl::beginPicture(const ViewFrame& frame) {
-  // A voxel is node / 7: at the far end of its level's range it is kVoxelPixels wide, at the near end twice that.
-  pixelDetail = static_cast<float>(settings.height / (2 * frame.tanY * 7 * kVoxelPixels));
+  greatestDetail = static_cast<float>(pixelDetail(frame, settings.height));
   camera.upload(0, std::as_bytes(std::span(&frame.block, 1)));
   camera.bind(GL_UNIFORM_BUFFER, WK_CAMERA_BINDING);
   counters.clear();

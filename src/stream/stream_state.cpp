@@ -60,6 +60,7 @@ struct StreamState::Impl {
   bool planted = false, selectionStale = true, following = true;
   double detail = 0;        // K that is sampled
   double targetDetail = 0;  // where it glides to
+  double drawnDetail = 0;   // K at which rays sample: that, or what a pixel asks for
   float bandBase_m = 0, bandTop_m = 0;
 };
 
@@ -140,7 +141,7 @@ void StreamState::Impl::findBand(NodeIndex node, const NodeView& view, const Nod
   const NodeView::Seen seen = view.look(at, above);
   if (!seen.visible()) return;
   const bool open = n.children.valid() && tree.group(n.children).reachable;
-  if (n.own.max > 0 && (!open || view.farDistance_m(at) >= kSampledFrom * detail * root.nodeSize_m(at.level))) {
+  if (n.own.max > 0 && (!open || view.farDistance_m(at) >= kSampledFrom * drawnDetail * root.nodeSize_m(at.level))) {
     bandBase_m = std::min(bandBase_m, n.own.base_m);
     bandTop_m = std::max(bandTop_m, n.own.top_m);
   }
@@ -203,11 +204,12 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
   const bool work = selectionStale || motion.changed() || !input.results.empty();
   if (work) selectionStale = !reselect();
   edits.generate = jobs.take(input.maxBricks);
-  const double detailBefore = detail;
+  const double drawnBefore = drawnDetail;
   followDetail(input.snap);
+  drawnDetail = std::min(detail, input.camera.pixelDetail);
   const bool idle = !selectionStale && tree.pendingBricks() == 0;
   if (idle) following = false;
-  if (work || detail != detailBefore) {
+  if (work || drawnDetail != drawnBefore) {
     SelectionView view = motion.view();
     view.cloudBase_m = source.base_m();
     view.cloudTop_m = source.top_m();

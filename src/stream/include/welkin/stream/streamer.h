@@ -19,6 +19,7 @@ struct SelectionCamera {
   glm::dvec3 position_m{};
   glm::dvec3 forward{0, 0, -1}, right{1, 0, 0}, up{0, 1, 0};  // unit
   double tanHalfFovY = 0.5, tanHalfFovX = 0.5;
+  double pixelDetail = 1e6;  // K past which voxels are finer than pixels: rays do not sample finer, whatever is resident
 };
 
 struct StreamSettings {
