@@ -17,6 +17,9 @@ double averaged_m(double voxel_m) {
   return voxel_m * (1 + share);
 }
 
+// From this voxel on the mean is averaged once more, over a voxel. Two voxels alone leave beats along the diagonals of the lattice, where
+// its planes are closer: 6 % of the optical depth along (1, 1, 0), 9 % along (1, 1, 1) (sinc of 2 / spacing); both together 1 %.
+constexpr double kBlurFrom_m = 2000;
 
 // A profile needs some fade to be integrable and continuous; a metre is below any voxel that is drawn.
 constexpr double kLeastFade_m = 1;
@@ -170,6 +173,7 @@ shared::CloudLayerParams makeLayerParams(const CloudLayer& layer, const RootFram
     out.clump[level] = clump > 1e-3 ? static_cast<float>(clump) : 0;
     const bool point = voxel_m < kPointPart * std::min(baseFade, topFade);
     out.filter_m[level] = point ? 0 : static_cast<float>(averaged_m(voxel_m));
+    out.blur_m[level] = point || voxel_m < kBlurFrom_m ? 0 : static_cast<float>(voxel_m);
   }
   return out;
 }

@@ -142,7 +142,7 @@ Bounds LayeredClouds::layerBounds(std::uint32_t index, const Box& box) const {
   const auto& layer = block_.layers[index];
   const auto view = this->view();
   const shared::LayerAt layerNow = shared::layerAt(view, index, box.level);
-  const float reach = 0.5f * layer.filter_m[box.level];
+  const float reach = 0.5f * (layer.filter_m[box.level] + layer.blur_m[box.level]);
   const float low = box.altitudeLo_m - reach - layer.base_m, high = box.altitudeHi_m + reach - layer.base_m;
   if (high <= 0 || low >= layer.thickness_m) return {};
   float weightLo = 1, weightHi = 1;
@@ -201,7 +201,7 @@ Bounds LayeredClouds::bounds(glm::uvec3 corner, std::uint32_t level) const {
   const auto altitude = [&](double r2) { return (r2 - radius * radius) / (std::sqrt(r2) + radius) * root_.step_m(); };
   const double a = altitude(near2) - kAltitudeSlack_m, b = altitude(far2) + kAltitudeSlack_m;
   const double low = a > 0 ? a : b < 0 ? -b : 0, high = std::max(std::abs(a), std::abs(b));
-  const double reach = static_cast<double>(block_.header.footprint_m[level]);  // of the profile's mean: at most two voxels, half up, half down
+  const double reach = 1.5 * double{block_.header.footprint_m[level]};  // of the profile's means: at most two voxels and one, half up, half down
   if (high + reach <= base_m() || low - reach >= top_m()) return {};
 
   Box box{corner, level, static_cast<float>(low), static_cast<float>(high), {1, 1}, {0, 1}};

@@ -8,9 +8,9 @@ namespace {
 
 // The picture is taken wider than it is, so that a turning camera finds refined what it turns to: by a fifth and 5 degrees.
 constexpr double kWider = 1.2, kWiderTan = 0.087;
-// Stored cloud reaches beyond the source's altitudes: half a voxel or more by band limiting, one by interpolation. A voxel is a
-// seventh of a node; two of them.
-constexpr double kLeakNodes = 2.0 / 7.0;
+// Stored cloud reaches beyond the source's altitudes: up to one and a half voxels by band limiting, one by interpolation. A voxel is a
+// seventh of a node.
+constexpr double kLeakNodes = 2.5 / 7.0;
 
 // Penalties rise over this much beyond the border, so that a node on it does not come and go with each tremble of the camera: about
 // 6 degrees of turning; 130 km of ground for an Earth.

@@ -118,6 +118,7 @@ const std::map<std::string, BlockLayout>& blocks() {
          LAYER(invSpread2[0]),
          LAYER(clump[0]),
          LAYER(filter_m[0]),
+         LAYER(blur_m[0]),
 #undef LAYER
          {"sourceCover[0]", sizeof(CloudBlock)}},
         4,

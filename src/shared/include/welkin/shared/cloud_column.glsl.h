@@ -119,7 +119,7 @@ WK_FN Column8 layerColumn(WK_SOURCE_PARAM Column8 density, uint layer, uvec3 p, 
 
 // Can the layer be in a node whose altitudes (magnitudes) and weather lie in these ranges?
 WK_FN bool layerReaches(WK_SOURCE_PARAM uint layer, uint level, float low_m, float high_m, float coverHigh, float typeLow, float typeHigh) {
-  float base = WK_LAYER(layer).base_m, reach = F(0.5) * WK_LAYER(layer).filter_m[level];
+  float base = WK_LAYER(layer).base_m, reach = F(0.5) * (WK_LAYER(layer).filter_m[level] + WK_LAYER(layer).blur_m[level]);
   float gain = WK_LAYER(layer).coverGain, bias = WK_LAYER(layer).coverBias;
   bool inType = WK_LAYER(layer).typed == 0u || (typeHigh > WK_LAYER(layer).typeLow && typeLow < WK_LAYER(layer).typeHigh);
   return inType && high_m + reach > base && low_m - reach < base + WK_LAYER(layer).thickness_m && max(coverHigh * gain, F(0.0)) + bias > F(0.0);

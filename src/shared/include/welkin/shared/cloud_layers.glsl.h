@@ -56,13 +56,14 @@ WK_FN float rampMean(float a, float b) {
 
 // What the density of one layer needs at one level.
 struct LayerAt {
-  float base_m, thickness_m, invThickness, invBaseFade, invTopFade;
-  float filter_m, spread, invSpread2, clump;
+  float base_m, thickness_m, invThickness, baseFade_m, invBaseFade, topFade_m, invTopFade;
+  float filter_m, blur_m, spread, invSpread2, clump;
   float extinction_per_m, invSoftness, taper, topFollowsCover;
 };
 WK_FN LayerAt layerAt(WK_SOURCE_PARAM uint layer, uint level) {
-  return WK_NEW(LayerAt, WK_LAYER(layer).base_m, WK_LAYER(layer).thickness_m, WK_LAYER(layer).invThickness, WK_LAYER(layer).invBaseFade,
-                WK_LAYER(layer).invTopFade, WK_LAYER(layer).filter_m[level], WK_LAYER(layer).spread[level], WK_LAYER(layer).invSpread2[level],
+  return WK_NEW(LayerAt, WK_LAYER(layer).base_m, WK_LAYER(layer).thickness_m, WK_LAYER(layer).invThickness,
+                WK_LAYER(layer).baseFade_m, WK_LAYER(layer).invBaseFade, WK_LAYER(layer).topFade_m, WK_LAYER(layer).invTopFade,
+                WK_LAYER(layer).filter_m[level], WK_LAYER(layer).blur_m[level], WK_LAYER(layer).spread[level], WK_LAYER(layer).invSpread2[level],
                 WK_LAYER(layer).clump[level], WK_LAYER(layer).extinction_per_m, WK_LAYER(layer).invSoftness, WK_LAYER(layer).taper,
                 WK_LAYER(layer).topFollowsCover);
 }
@@ -72,6 +73,25 @@ WK_FN float profileMean(LayerAt a, float low, float high) {
   if (high <= F(0.0) || low >= a.thickness_m) return F(0.0);
   return max(rampMean(low * a.invBaseFade, high * a.invBaseFade) +
              rampMean((a.thickness_m - high) * a.invTopFade, (a.thickness_m - low) * a.invTopFade) - F(1.0), F(0.0));
+}
+
+// Second antiderivative of clamp(z / fade, 0, 1), and of the trapezoid profile: above the layer that is its area times the height over its
+// centroid, without the squares that would cancel.
+WK_FN float rampArea(float z, float fade, float invFade) {
+  float x = max(z, F(0.0)), over = x - F(0.5) * fade;
+  return x < fade ? x * x * x * invFade * F(0.166666667) : F(0.5) * over * over + fade * fade * F(0.0416666667);
+}
+WK_FN float profileArea(LayerAt a, float z) {
+  float T = a.thickness_m, f = a.baseFade_m, g = a.topFade_m;
+  float area = T - F(0.5) * (f + g), end = rampArea(T, f, a.invBaseFade) - g * g * F(0.166666667);
+  return z < T ? rampArea(z, f, a.invBaseFade) - rampArea(z - T + g, g, a.invTopFade) : end + area * (z - T);
+}
+// Mean of profileMean over windows of half height `reach` whose middles are up to `blur` from z.
+WK_FN float profileBlurred(LayerAt a, float z, float reach, float blur) {
+  if (z + reach + blur <= F(0.0) || z - reach - blur >= a.thickness_m) return F(0.0);
+  float up = profileArea(a, z + reach + blur) - profileArea(a, z + reach - blur);
+  float down = profileArea(a, z - reach + blur) - profileArea(a, z - reach - blur);
+  return max(up - down, F(0.0)) / (F(4.0) * reach * blur);
 }
 
 WK_FN float profileAt(LayerAt a, float z) {
@@ -133,11 +153,16 @@ struct LayerPlace {
 // samples above would lose. `c` is the layer's own cover.
 WK_FN LayerPlace layerPlace(LayerAt a, float h, float c, float coverThreshold) {
   float scale = heightScale(a.topFollowsCover, c);
-  float z = (h - a.base_m) * scale, reach = F(0.5) * a.filter_m * scale;
+  float z = (h - a.base_m) * scale, reach = F(0.5) * a.filter_m * scale, blur = F(0.5) * a.blur_m * scale;
   float profile = profileAt(a, z), middle = z;
   if (a.filter_m > F(0.0)) {
     float mirrored = F(-2.0) * a.base_m * scale - z;
-    profile = profileMean(a, z - reach, z + reach) + profileMean(a, mirrored - reach, mirrored + reach);
+    if (a.blur_m > F(0.0)) {
+      profile = profileBlurred(a, z, reach, blur) + profileBlurred(a, mirrored, reach, blur);
+      reach += blur;
+    } else {
+      profile = profileMean(a, z - reach, z + reach) + profileMean(a, mirrored - reach, mirrored + reach);
+    }
     middle = F(0.5) * (clamp(z - reach, F(0.0), a.thickness_m) + clamp(z + reach, F(0.0), a.thickness_m));
   }
   profile = c > F(0.0) ? min(profile, F(1.0)) : F(0.0);
@@ -156,7 +181,7 @@ WK_FN float layerValue(LayerAt a, LayerPlace place, float c, float n) {
 // Extinction in 1/m of one layer. `altitude_m` is that of p; cover and type are 0..1.
 WK_FN float layerDensity(WK_SOURCE_PARAM uint layer, uvec3 p, uint level, float altitude_m, float cover, float type) {
   LayerAt a = layerAt(WK_SOURCE_ARG layer, level);
-  float h = abs(altitude_m), reach = F(0.5) * a.filter_m;
+  float h = abs(altitude_m), reach = F(0.5) * (a.filter_m + a.blur_m);
   if (h + reach <= a.base_m || h - reach >= a.base_m + a.thickness_m) return F(0.0);
   float c = layerCover(WK_SOURCE_ARG layer, cover, type);
   if (c <= F(0.0)) return F(0.0);
@@ -201,7 +226,7 @@ WK_FN Weather weatherBetween(WK_SOURCE_PARAM uvec3 p, uint level) {
 // Extinction in 1/m of all layers: the densest one counts, so a tower that pierces a deck is no denser for it.
 WK_FN float layersDensity(WK_SOURCE_PARAM uvec3 p, uint level) {
   float altitude_m = cloudAltitude(WK_SOURCE_ARG p);
-  float h = abs(altitude_m), reach = WK_HEADER.footprint_m[level];
+  float h = abs(altitude_m), reach = F(1.5) * WK_HEADER.footprint_m[level];
   if (h + reach <= WK_HEADER.lowest_m || h - reach >= WK_HEADER.highest_m) return F(0.0);
   Weather weather = weatherBetween(WK_SOURCE_ARG p, level);
   if (weather.cover <= F(0.0)) return F(0.0);

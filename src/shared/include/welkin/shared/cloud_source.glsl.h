@@ -61,6 +61,7 @@ struct CloudLayerParams {
   float invSpread2[25];  // 1 / (6 spread^2), 0 if spread is 0
   float clump[25];       // by level: optical depth of a clump times the share of the noise that is not shown
   float filter_m[25];    // by level: height over which the profile is averaged; 0: taken at the point
+  float blur_m[25];      // by level: height over which that mean is averaged once more; 0: it is not
 };
 WK_END
 
