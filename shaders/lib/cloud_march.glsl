@@ -19,12 +19,22 @@ const int kMaxCells = 4096;         // an opaque or left ray ends long before; s
 const float kSkyDistance_m = 1e12;  // what is not there moves with the camera: only rotation reprojects it
 const float kThinShare = 0.22;      // of the step: optical depth under which one segment serves a brick (0.1 at step 0.45)
 
+// Seen from outside, at the limb, a voxel's height is seen, not its width: cloud that coarse voxels carry above the source's top would
+// stand out from the disc, and is left out. 1 past the limb, 0 away from it and inside the air, where voxels are small.
+const float kLimbCosine = 0.12;                       // of a ray with the ground's normal: 7 degrees
+const float kLimbFrom_m = 50e3, kLimbFull_m = 250e3;  // altitudes
+float limbShare(dvec3 position, double altitude, double radius, vec3 dir, float ground_m) {
+  float cosine = ground_m >= 0.0 ? -float(dot(position + dvec3(dir) * double(ground_m), dvec3(dir)) / radius) : 0.0;
+  return (1.0 - smoothstep(0.0, kLimbCosine, cosine)) * smoothstep(kLimbFrom_m, kLimbFull_m, float(altitude));
+}
+
 struct Segment { float near, far; };
 
 // Where the ray is between the lowest base and the highest top of resident data, and not behind the ground.
 Segment cloudSegment(dvec3 position, double altitude, double r, double radius, vec3 dir, float ground_m) {
   double b = dot(position, dvec3(dir));
-  double top = double(tree.bandTop_m), base = double(tree.bandBase_m);
+  float limb = limbShare(position, altitude, radius, dir, ground_m);
+  double top = double(mix(tree.bandTop_m, min(tree.bandTop_m, tree.cloudTop_m), limb)), base = double(tree.bandBase_m);
   Interval outer = sphereInterval(b, (altitude - top) * (r + radius + top));
   if (outer.near > outer.far) return Segment(1.0, 0.0);
   float near = outer.near, far = outer.far;

@@ -138,6 +138,7 @@ void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
   block.sunDir = glm::vec4(glm::vec3(sun), plan.sun ? 1.0f : 0.0f);
   block.mapCentre = glm::vec4(glm::vec3(camera_planet), 0.0f);
   block.detail = std::min(last.sampleDetail, greatestDetail);
+  block.cloudTop_m = static_cast<float>(source->top_m());
   block.maxExtinction_per_m = source->maxExtinction();
   block.bandBase_m = last.bandBase_m;
   block.shadowTop_m = std::max(last.bandTop_m, static_cast<float>(source->top_m()));

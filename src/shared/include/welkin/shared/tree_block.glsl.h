@@ -39,7 +39,7 @@ struct TreeBlock {
   uint mapBase;             // coarsest octree map's level: its 64^3 cells or fewer cover the root
   float atlasDepthInverse;  // 1 / texels along z of a brick texture
   uint firstNode;           // where the nodes start in the tree's buffer
-  float spare0;
+  float cloudTop_m;         // the source's: stored cloud reaches higher by some voxels
   float shadowTop_m;        // where shadow rays end: the source's top, or the band's if higher
   float sampleNear_m;       // nearer than this the level of detail is that of this distance: finer data may not be there yet
   uint bricksPerTexture;
