@@ -32,16 +32,17 @@ uniform float u_groundAlbedo;
 
 struct CloudColours { vec3 sun, sky, ground; };
 
-// Irradiances that light a cloud at this point: of the sun through the air, of sky and ground.
+// Irradiances that light a cloud at this point: of the sun through the air, of sky and ground. Where coarse voxels carry it above its
+// source's top it is lit as at the top: else it would shine red far into the night.
 CloudColours coloursAt(dvec3 position) {
   float r = float(length(position));
-  float altitude = float(length(position) - double(tree.planetRadius_m));
+  float altitude = clamp(float(length(position) - double(tree.planetRadius_m)), 0.0, tree.cloudTop_m);
   float muSun = dot(vec3(position), tree.sunDir.xyz) / r;
 #if OPT_AIR
-  AirLight sky = airSkyIrradiance(u_skyIrradiance, air, max(altitude, 0.0), muSun);
-  return CloudColours(airSunTransmittance(u_skyTransmittance, air, max(altitude, 0.0), muSun) * u_sunIrradiance, sky.fromAbove, sky.fromBelow);
+  AirLight sky = airSkyIrradiance(u_skyIrradiance, air, altitude, muSun);
+  return CloudColours(airSunTransmittance(u_skyTransmittance, air, altitude, muSun) * u_sunIrradiance, sky.fromAbove, sky.fromBelow);
 #else
-  float dip = sqrt(max(altitude, 0.0) * (2.0 * tree.planetRadius_m + altitude)) / r;  // sine of the horizon's dip
+  float dip = sqrt(altitude * (2.0 * tree.planetRadius_m + altitude)) / r;  // sine of the horizon's dip
   float lit = muSun > -dip ? 1.0 : 0.0;
   return CloudColours(lit * u_sunIrradiance, vec3(0.0), max(muSun, 0.0) * u_groundAlbedo * u_sunIrradiance);
 #endif
