@@ -6,8 +6,10 @@
 namespace welkin {
 namespace {
 
-// The picture is taken wider than it is, so that a turning camera finds refined what it turns to: by a fifth and 5 degrees.
-constexpr double kWider = 1.2, kWiderTan = 0.087;
+// The picture is taken wider than it is, so that a turning camera finds refined what it turns to: by a fifth and 5 degrees. Through a
+// telescope less: all angles shrink with the picture below this half angle's tangent, and what is outside gets no more than a view
+// without it would give.
+constexpr double kWider = 1.2, kWiderTan = 0.087, kWideTan = 0.5;
 // Stored cloud reaches beyond the source's altitudes: up to one and a half voxels by band limiting, one by interpolation. A voxel is a
 // seventh of a node.
 constexpr double kLeakNodes = 2.5 / 7.0;
@@ -28,7 +30,8 @@ NodeView::NodeView(const RootFrame& root, const SelectionView& view) : root_(roo
   const double R = root.planetRadius_m, top = R + view.cloudTop_m;
   farthestCloud_m_ = std::sqrt(std::max(0.0, (cameraRadius_m_ - R) * (cameraRadius_m_ + R))) + std::sqrt((top - R) * (top + R));
   slackAngle_rad_ = view.slack_m / std::max(cameraRadius_m_, 1.0);
-  const double tanX = view.tanHalfFovX * kWider + kWiderTan, tanY = view.tanHalfFovY * kWider + kWiderTan;
+  narrow_ = std::min(1.0, view.tanHalfFovY / kWideTan);
+  const double tanX = view.tanHalfFovX * kWider + kWiderTan * narrow_, tanY = view.tanHalfFovY * kWider + kWiderTan * narrow_;
   planeX_ = glm::dvec3(tanX, 1, 0) / std::sqrt(1 + tanX * tanX);
   planeY_ = glm::dvec3(tanY, 1, 0) / std::sqrt(1 + tanY * tanY);
 }
@@ -70,12 +73,12 @@ NodeView::Seen NodeView::look(const NodeAddress& node, const Seen& above) const 
   // A child's sphere is within its parent's: what is beyond stays beyond.
   const double outside_m = beyondPicture_m(offset, radius_m + view_.slack_m);
   seen.outside = above.outside || outside_m > 0;
-  const double outside = std::clamp(outside_m / (kOutsideRamp * glm::length(offset)), 0.0, 1.0);
+  const double outside = std::clamp(outside_m / (kOutsideRamp * narrow_ * glm::length(offset)), 0.0, 1.0);
   const double hidden_rad = above.deep ? kHiddenRamp_rad : beyondHorizon_rad(centre, radius_m, size_m);
   seen.deep = hidden_rad >= kHiddenRamp_rad;
   seen.hidden = above.hidden || hidden_rad > 0;
   const double hidden = std::clamp(hidden_rad / kHiddenRamp_rad, 0.0, 1.0);
-  seen.penalty = (1 + (kOutsidePenalty - 1) * outside) * (1 + (kHiddenPenalty - 1) * hidden);
+  seen.penalty = (1 + (kOutsidePenalty / narrow_ - 1) * outside) * (1 + (kHiddenPenalty - 1) * hidden);
   return seen;
 }
 

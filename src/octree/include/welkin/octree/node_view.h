@@ -7,7 +7,7 @@
 
 namespace welkin {
 
-inline constexpr double kOutsidePenalty = 2;  // outside the picture
+inline constexpr double kOutsidePenalty = 2;  // outside the picture; through a telescope more
 inline constexpr double kHiddenPenalty = 4;   // behind the planet
 
 // A camera for selection. It flies on until what is asked for now is generated: it is then within slack_m of position_m. What is there
@@ -51,7 +51,7 @@ class NodeView {
   double cameraRadius_m_, drawnAltitude_m_;
   glm::dvec3 zenith_;
   double horizonAngle_rad_, cosHorizon_;
-  double slackAngle_rad_;
+  double slackAngle_rad_, narrow_;
   double farthestCloud_m_;
   glm::dvec3 planeX_, planeY_;  // (distance along forward, along right or up, 0) weights of the picture's side planes
 };
