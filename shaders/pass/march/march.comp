@@ -22,6 +22,11 @@ layout(std140, binding = WK_CAMERA_BINDING) uniform CameraUniforms { CameraBlock
 layout(std430, binding = WK_COUNTERS_BINDING) buffer CounterBuffer { Counters counters; };
 layout(rgba16f, binding = 0) uniform writeonly image2D u_light;
 layout(rg32f, binding = 1) uniform writeonly image2D u_aux;
+layout(r8ui, binding = 3) uniform writeonly uimage2D u_age;
+#if PIXELS == PIXELS_SIXTEENTH
+#include "lib/reproject.glsl"
+layout(rgba16f, binding = 2) uniform writeonly image2D u_change;
+#endif
 #if PIXELS == PIXELS_LIST
 layout(std430, binding = WK_PIXELS_BINDING) readonly buffer PixelList { uint groups, one, one_, count, pixels[]; };
 #endif
@@ -65,6 +70,7 @@ void main() {
   ivec2 pixel = ivec2(entry & 0xFFFFu, entry >> 16u);
 #elif PIXELS == PIXELS_SIXTEENTH
   ivec2 pixel = tilePixel() * 4 + u_offset;
+  if (any(greaterThanEqual(pixel, u_size))) imageStore(u_change, pixel / 4, vec4(0.0));  // a tile cut by the border; beyond the image nothing is stored
 #else
   ivec2 pixel = tilePixel();
 #endif
@@ -84,6 +90,12 @@ void main() {
     shadow = cloudShadow(sunDepth(position + dvec3(view.dir) * double(view.ground_m), 0.0));
   imageStore(u_light, pixel, vec4(light, cloud.transmittance));
   imageStore(u_aux, pixel, vec4(cloud.distance_m, shadow, 0.0, 0.0));
+  imageStore(u_age, pixel, uvec4(0u));
+#if PIXELS == PIXELS_SIXTEENTH
+  History history = findHistory(pixel, view.dir, u_size);
+  history.still = history.still || !history.valid;  // without history: against what was here, so that a great change is noticed
+  imageStore(u_change, pixel / 4, vec4(light, cloud.transmittance) - historyLight(history, pixel, u_size));
+#endif
   atomicAdd(counters.marchedPixels, 1u);
   atomicAdd(counters.cells, cloud.cells);
   atomicAdd(counters.samples, cloud.samples);

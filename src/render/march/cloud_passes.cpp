@@ -41,9 +41,15 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
     if (!light) return light.error();
     auto aux = gpu::Texture::create(account, "cloud history", {.format = GL_RG32F, .width = width, .height = height, .frameTarget = true});
     if (!aux) return aux.error();
+    auto age = gpu::Texture::create(account, "cloud history", {.format = GL_R8UI, .width = width, .height = height, .filter = GL_NEAREST, .frameTarget = true});
+    if (!age) return age.error();
+    passes.age_[i] = std::move(*age);
     passes.light_[i] = std::move(*light);
     passes.aux_[i] = std::move(*aux);
   }
+  auto change = gpu::Texture::create(account, "cloud change", {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4, .frameTarget = true});
+  if (!change) return change.error();
+  passes.change_ = std::move(*change);
   auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width) * std::size_t(height) * 4, GL_DYNAMIC_STORAGE_BIT, true);
   if (!pixels) return pixels.error();
   passes.pixels_ = std::move(*pixels);
@@ -68,6 +74,7 @@ void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int targ
   program.set("u_offset", offset);
   light_[target].bindImage(0, GL_WRITE_ONLY);
   aux_[target].bindImage(1, GL_WRITE_ONLY);
+  age_[target].bindImage(3, GL_WRITE_ONLY);
 }
 
 void CloudPasses::setLight(const Scene& scene) const {
@@ -77,6 +84,13 @@ void CloudPasses::setLight(const Scene& scene) const {
     p->set("u_sunIrradiance", irradiance);
     p->set("u_groundAlbedo", albedo);
   }
+}
+
+void CloudPasses::setMotion(const gpu::Program& program, const ViewFrame& view) const {
+  program.set("u_move", glm::vec3(view.position_m - last_.position_m));
+  program.set("u_oldForward", glm::vec3(last_.forward));
+  program.set("u_oldRight", glm::vec3(last_.right / last_.tanX));
+  program.set("u_oldUp", glm::vec3(last_.up / last_.tanY));
 }
 
 void CloudPasses::preview(const Scene& scene) {
@@ -101,27 +115,31 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
   } else {
     const glm::ivec2 offset{kOrder[phase_ % 16][0], kOrder[phase_ % 16][1]};
     ++phase_;
+    light_[old].bind(WK_CLOUD_LIGHT_UNIT);
+    aux_[old].bind(WK_CLOUD_AUX_UNIT);
+    timer.begin("march");
+    setMotion(marchSixteenth_, view);
+    change_.bindImage(2, GL_WRITE_ONLY);
+    march(marchSixteenth_, offset, current_);
+    marchSixteenth_.dispatch(groups(width_, 32), groups(height_, 32));
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    timer.end();
     timer.begin("reproject");
     const std::uint32_t head[4] = {0, 1, 1, 0};
     pixels_.upload(0, std::as_bytes(std::span(head)));
     pixels_.bind(GL_SHADER_STORAGE_BUFFER, WK_PIXELS_BINDING);
-    light_[old].bind(WK_CLOUD_LIGHT_UNIT);
-    aux_[old].bind(WK_CLOUD_AUX_UNIT);
+    change_.bind(WK_CLOUD_CHANGE_UNIT);
     reproject_.set("u_size", glm::ivec2(width_, height_));
     reproject_.set("u_offset", offset);
-    reproject_.set("u_phase", static_cast<int>((phase_ - 1) % 16));
-    reproject_.set("u_move", glm::vec3(view.position_m - last_.position_m));
-    reproject_.set("u_oldForward", glm::vec3(last_.forward));
-    reproject_.set("u_oldRight", glm::vec3(last_.right / last_.tanX));
-    reproject_.set("u_oldUp", glm::vec3(last_.up / last_.tanY));
+    setMotion(reproject_, view);
     light_[current_].bindImage(0, GL_WRITE_ONLY);
     aux_[current_].bindImage(1, GL_WRITE_ONLY);
+    age_[current_].bindImage(3, GL_WRITE_ONLY);
+    age_[old].bind(WK_CLOUD_AGE_UNIT);
     reproject_.dispatch(groups(width_, 8), groups(height_, 8));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     timer.end();
     timer.begin("march");
-    march(marchSixteenth_, offset, current_);
-    marchSixteenth_.dispatch(groups(width_, 32), groups(height_, 32));
     march(marchList_, offset, current_);
     marchList_.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pixels_.id());

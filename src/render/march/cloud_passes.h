@@ -27,11 +27,12 @@ class CloudPasses {
  private:
   void march(const gpu::Program& program, glm::ivec2 offset, int target) const;
   void setLight(const Scene& scene) const;
+  void setMotion(const gpu::Program& program, const ViewFrame& view) const;
   int width_ = 0, height_ = 0, current_ = 0;
   bool haveHistory_ = false;
   std::uint32_t phase_ = 0;  // which of the 16 pixels is next
   ViewFrame last_{};
-  gpu::Texture light_[2], aux_[2];
+  gpu::Texture light_[2], aux_[2], age_[2], change_;
   gpu::Buffer pixels_;
   gpu::Program marchAll_, marchSixteenth_, marchList_, reproject_;
 };

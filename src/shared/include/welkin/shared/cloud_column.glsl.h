@@ -10,20 +10,6 @@ struct Column8 {
   float v[8];
 };
 
-// A lattice plane of noise over a column's x and y: the blended gradients' value at the plane, and their slope along z.
-struct NoisePlane {
-  float value;
-  float slope;
-};
-WK_FN NoisePlane noisePlane(uint h00, uint h10, uint h01, uint h11, float x, float y, float fx, float fy, uint hz) {
-  uint a = mixBits(h00 ^ hz), b = mixBits(h10 ^ hz), c = mixBits(h01 ^ hz), d = mixBits(h11 ^ hz);
-  float x1 = x - F(1.0), y1 = y - F(1.0);
-  float va = gradientDot(a, x, y, F(0.0)), vb = gradientDot(b, x1, y, F(0.0)), vc = gradientDot(c, x, y1, F(0.0)), vd = gradientDot(d, x1, y1, F(0.0));
-  float sa = float(int(a >> 22u)), sb = float(int(b >> 22u)), sc = float(int(c >> 22u)), sd = float(int(d >> 22u));
-  float v0 = va + fx * (vb - va), v1 = vc + fx * (vd - vc), s0 = sa + fx * (sb - sa), s1 = sc + fx * (sd - sc);
-  return WK_NEW(NoisePlane, v0 + fy * (v1 - v0), s0 + fy * (s1 - s0) - F(511.5));
-}
-
 // Adds amplitude * billow(noise) of one octave to a column that starts at p and has its samples `steps` further along z. The least cell is a
 // quarter of the brick, so the column meets 1, 2 or 4 of them.
 WK_FN Column8 addOctave(Column8 sum, uvec3 p, Column8 steps, uint sizeShift, uint shift, uint zShift, uint seed, float amplitude, float billow) {

@@ -51,22 +51,32 @@ WK_FN uint latticeX(uint p, uint shift, uint next) { return (((p >> shift) + nex
 WK_FN uint latticeY(uint p, uint shift, uint next) { return (((p >> shift) + next) & (0xFFFFFFFFu >> shift)) * 0xD8163841u; }
 WK_FN uint latticeZ(uint p, uint shift, uint next) { return (((p >> shift) + next) & (0xFFFFFFFFu >> shift)) * 0xCB1AB31Fu; }
 
-// Noise -1..1 with cells of 2^shift steps along x and y and 2^zShift along z; shifts 1..31.
+// A lattice plane of noise at one x and y: the blended gradients' value at the plane, and their slope along z.
+struct NoisePlane {
+  float value;
+  float slope;
+};
+WK_FN NoisePlane noisePlane(uint h00, uint h10, uint h01, uint h11, float x, float y, float fx, float fy, uint hz) {
+  uint a = mixBits(h00 ^ hz), b = mixBits(h10 ^ hz), c = mixBits(h01 ^ hz), d = mixBits(h11 ^ hz);
+  float x1 = x - F(1.0), y1 = y - F(1.0);
+  float va = gradientDot(a, x, y, F(0.0)), vb = gradientDot(b, x1, y, F(0.0)), vc = gradientDot(c, x, y1, F(0.0)), vd = gradientDot(d, x1, y1, F(0.0));
+  float sa = float(int(a >> 22u)), sb = float(int(b >> 22u)), sc = float(int(c >> 22u)), sd = float(int(d >> 22u));
+  float v0 = va + fx * (vb - va), v1 = vc + fx * (vd - vc), s0 = sa + fx * (sb - sa), s1 = sc + fx * (sd - sc);
+  return WK_NEW(NoisePlane, v0 + fy * (v1 - v0), s0 + fy * (s1 - s0) - F(511.5));
+}
+
+// Noise -1..1 with cells of 2^shift steps along x and y and 2^zShift along z; shifts 1..31. Along z last, in the order in which columns of
+// samples are made (cloud_column.glsl.h), so that both agree to the last bits.
 WK_FN float noise3(uvec3 p, uint shift, uint zShift, uint seed) {
   float x = cellFraction(p.x, shift), y = cellFraction(p.y, shift), z = cellFraction(p.z, zShift);
-  float x1 = x - F(1.0), y1 = y - F(1.0), z1 = z - F(1.0);
+  float fx = noiseFade(x), fy = noiseFade(y);
   uint hx0 = latticeX(p.x, shift, 0u) ^ seed, hx1 = latticeX(p.x, shift, 1u) ^ seed;
   uint hy0 = latticeY(p.y, shift, 0u), hy1 = latticeY(p.y, shift, 1u);
-  uint hz0 = latticeZ(p.z, zShift, 0u), hz1 = latticeZ(p.z, zShift, 1u);
-  float fx = noiseFade(x), fy = noiseFade(y), fz = noiseFade(z);
-  float n00 = gradientDot(mixBits(hx0 ^ hy0 ^ hz0), x, y, z), n10 = gradientDot(mixBits(hx1 ^ hy0 ^ hz0), x1, y, z);
-  float n01 = gradientDot(mixBits(hx0 ^ hy1 ^ hz0), x, y1, z), n11 = gradientDot(mixBits(hx1 ^ hy1 ^ hz0), x1, y1, z);
-  float m00 = gradientDot(mixBits(hx0 ^ hy0 ^ hz1), x, y, z1), m10 = gradientDot(mixBits(hx1 ^ hy0 ^ hz1), x1, y, z1);
-  float m01 = gradientDot(mixBits(hx0 ^ hy1 ^ hz1), x, y1, z1), m11 = gradientDot(mixBits(hx1 ^ hy1 ^ hz1), x1, y1, z1);
-  float n0 = n00 + fx * (n10 - n00), n1 = n01 + fx * (n11 - n01);
-  float m0 = m00 + fx * (m10 - m00), m1 = m01 + fx * (m11 - m01);
-  float n = n0 + fy * (n1 - n0), m = m0 + fy * (m1 - m0);
-  return clamp((n + fz * (m - n)) * kNoiseScale, F(-1.0), F(1.0));
+  uint h00 = hx0 ^ hy0, h10 = hx1 ^ hy0, h01 = hx0 ^ hy1, h11 = hx1 ^ hy1;
+  NoisePlane low = noisePlane(h00, h10, h01, h11, x, y, fx, fy, latticeZ(p.z, zShift, 0u));
+  NoisePlane high = noisePlane(h00, h10, h01, h11, x, y, fx, fy, latticeZ(p.z, zShift, 1u));
+  float a = low.value + low.slope * z, b = high.value + high.slope * (z - F(1.0));
+  return clamp((a + noiseFade(z) * (b - a)) * kNoiseScale, F(-1.0), F(1.0));
 }
 
 // Blend from plain noise to billows, |n| - E|n|: round lumps that meet in sharp creases. The mean stays 0.
