@@ -126,14 +126,17 @@ def check_moving(c):
 
 
 def check_determinism(c):
-    frames = 8 if c.quick else 40
-    for first in [0, frame_count() // 2]:
+    """Two parts of the flight in five runs; the whole flight in two that differ in all that may differ."""
+    count, frames = frame_count(), 8 if c.quick else 40
+    everything = [("first", [], {}), ("again", [], {}), ("random delays in the worker", ["--worker-jitter", 7], {}),
+                  ("one driver thread", [], {"LP_NUM_THREADS": "1"}), ("two driver threads", [], {"LP_NUM_THREADS": "2"})]
+    both = [("first", [], {"LP_NUM_THREADS": "2"}), ("random delays in the worker, one driver thread", ["--worker-jitter", 7], {"LP_NUM_THREADS": "1"})]
+    plan = [(0, frames, everything), (count // 2, frames, everything)]
+    for first, frames, runs in plan if c.quick else [*plan, (0, count, both)]:
         part = f"{first}:{first + frames}"
-        runs = [("first", [], {}), ("again", [], {}), ("random delays in the worker", ["--worker-jitter", 7], {}),
-                ("one driver thread", [], {"LP_NUM_THREADS": "1"}), ("two driver threads", [], {"LP_NUM_THREADS": "2"})]
         pictures = {}
         for name, options, environment in runs:
-            folder = f"same-{first}-{name.replace(' ', '-')}"
+            folder = f"same-{first}-{frames}-{name.replace(' ', '-').replace(',', '')}"
             if c.fly(folder, "--frames", part, "--every", 1, *options, **environment) is None:
                 return
             names = [f"frame-{n:05d}.png" for n in range(first, first + frames)]

@@ -116,7 +116,7 @@ Result<void> Renderer::Impl::create() {
   auto residentTree = ResidentTree::create(account, layout, root);
   if (!residentTree) return residentTree.error();
   tree.emplace(std::move(*residentTree));
-  auto brickPasses = BrickPasses::create(account, *source, *tree);
+  auto brickPasses = BrickPasses::create(account, *source, *tree, plan.sun);
   if (!brickPasses) return brickPasses.error();
   bricks.emplace(std::move(*brickPasses));
   auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan.air);

@@ -23,7 +23,7 @@ std::uint64_t BrickPasses::bytes(const DensitySource& source) {
          std::max<std::size_t>(source.shaderParams().size() * 4, 16);
 }
 
-Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree) {
+Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, bool sun) {
   BrickPasses passes;
   auto jobs = gpu::Buffer::create(account, "brick jobs", kSlots * kBatch * sizeof(shared::GpuBrickJob));
   if (!jobs) return jobs.error();
@@ -44,13 +44,15 @@ Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const Densi
   defines.emplace_back("SOURCE_SHADER", source.shader());
   auto generate = gpu::Program::compute("pass/bricks/generate.comp", defines);
   if (!generate) return generate.error();
-  auto light = gpu::Program::compute("pass/light/light.comp", tree.defines());
-  if (!light) return light.error();
+  if (sun) {
+    auto light = gpu::Program::compute("pass/light/light.comp", tree.defines());
+    if (!light) return light.error();
+    passes.light_ = std::move(*light);
+  }
   passes.jobs_ = std::move(*jobs);
   passes.results_ = std::move(*results);
   passes.params_ = std::move(*params);
   passes.generate_ = std::move(*generate);
-  passes.light_ = std::move(*light);
   return passes;
 }
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <random>
 
+#include "random32.h"
 #include "welkin/clouds/default_layers.h"
 #include "welkin/clouds/layers_source.h"
 #include "welkin/clouds/noise_bounds.h"
@@ -13,15 +14,7 @@
 namespace welkin {
 namespace {
 
-// 32-bit values from the generator (mt19937's own type is wider).
-struct Random {
-  using result_type = std::uint32_t;
-  std::mt19937 engine;
-  explicit Random(std::uint32_t seed) : engine(seed) {}
-  static constexpr result_type min() { return 0; }
-  static constexpr result_type max() { return 0xFFFFFFFFu; }
-  result_type operator()() { return static_cast<result_type>(engine()); }
-};
+using Random = test::Random32;
 
 const RootFrame kRoot = RootFrame::enclosing(6'371'000, 12'000);
 

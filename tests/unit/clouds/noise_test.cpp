@@ -2,20 +2,13 @@
 
 #include <random>
 
+#include "random32.h"
 #include "welkin/shared/noise.glsl.h"
 
 namespace welkin::shared {
 namespace {
 
-// 32-bit values from the generator (mt19937's own type is wider).
-struct Random {
-  using result_type = std::uint32_t;
-  std::mt19937 engine;
-  explicit Random(std::uint32_t seed) : engine(seed) {}
-  static constexpr result_type min() { return 0; }
-  static constexpr result_type max() { return 0xFFFFFFFFu; }
-  result_type operator()() { return static_cast<result_type>(engine()); }
-};
+using Random = test::Random32;
 
 uvec3 randomPosition(Random& random) { return {random(), random(), random()}; }
 
