@@ -352,6 +352,7 @@ Result<std::uint64_t> leastBudget(gpu::Context& context, const Scene& scene) {
   Scene plenty = scene;
   plenty.quality.budget_bytes = std::uint64_t{1} << 40;
   plenty.clouds.reset();
+  plenty.planet.albedoMap.clear();
   auto renderer = Renderer::create(context, plenty, {.width = 16, .height = 16});
   if (!renderer) return renderer.error();
   std::uint64_t bytes = (*renderer)->memory().used() + kSmallBuffers;
@@ -360,7 +361,17 @@ Result<std::uint64_t> leastBudget(gpu::Context& context, const Scene& scene) {
     if (!source) return source.error();
     bytes += BrickPasses::bytes(**source) + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
   }
-  return ((bytes + (1 << 20) - 1) >> 20) << 20;
+  const auto wholeMiB = [](std::uint64_t n) { return ((n + (1 << 20) - 1) >> 20) << 20; };
+  std::uint64_t least = wholeMiB(bytes);
+  if (scene.planet.albedoMap.empty()) return least;
+  const auto albedo = loadAlbedoPicture(scene);
+  if (!albedo) return least;  // the ground will be plain
+  // The ground's picture takes what the budget gives it.
+  for (;; least += 1 << 20) {
+    int width = albedo->width, height = albedo->height;
+    while (!CompositePass::albedoFits(width, height, least)) width = std::max(width / 2, 1), height = std::max(height / 2, 1);
+    if (bytes + CompositePass::albedoBytes(width, height) <= least) return least;
+  }
 }
 
 }  // namespace welkin

@@ -66,14 +66,20 @@ Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const S
   return pass;
 }
 
+std::uint64_t CompositePass::albedoBytes(int width, int height) {
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 4 * 4 / 3 + 64;
+}
+
+bool CompositePass::albedoFits(int width, int height, std::uint64_t budget) {
+  return width <= 2048 && (albedoBytes(width, height) <= budget / 16 || width <= 2 || height <= 2);
+}
+
 Result<void> CompositePass::loadAlbedo(gpu::MemoryAccount& account, AlbedoPicture picture) {
-  const auto bytes = [&] {
-    return static_cast<std::uint64_t>(picture.width) * picture.height * 4 * 4 / 3 + 64;
-  };  // with all smaller copies
-  while (picture.width > 2048 || (bytes() > account.budget() / 16 && picture.width > 2 && picture.height > 2)) picture = halved(picture);
-  if (!account.charge("albedo", bytes()))
-    return Error{"the picture of the ground needs " + std::to_string(bytes()) + " bytes of GPU memory, which the budget has not"};
-  albedoBytes_ = bytes();
+  while (!albedoFits(picture.width, picture.height, account.budget())) picture = halved(picture);
+  const std::uint64_t bytes = albedoBytes(picture.width, picture.height);
+  if (!account.charge("albedo", bytes))
+    return Error{"the picture of the ground needs " + std::to_string(bytes) + " bytes of GPU memory, which the budget has not"};
+  albedoBytes_ = bytes;
   glCreateTextures(GL_TEXTURE_2D, 1, &albedoMap_);
   const int levels = static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(picture.width, picture.height))));
   glTextureStorage2D(albedoMap_, levels, GL_SRGB8_ALPHA8, picture.width, picture.height);

@@ -20,6 +20,9 @@ struct AlbedoPicture {
 
 class CompositePass {
  public:
+  // A picture of the ground is halved until it takes a sixteenth of the budget: whether this size does, and its bytes with all mips.
+  static bool albedoFits(int width, int height, std::uint64_t budget);
+  static std::uint64_t albedoBytes(int width, int height);
   // Fails in one line: over the budget, or a shader that does not compile. What the scene has not is not compiled. The picture is halved
   // until it is at most 2048 wide and, with its smaller copies, at most 1/16 of the budget.
   static Result<CompositePass> create(gpu::MemoryAccount& account, const Scene& scene, int width, int height,
