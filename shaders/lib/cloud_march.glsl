@@ -17,7 +17,10 @@ struct CloudRay {
 const float kOpaqueTransmittance = 1.0 / 512.0;
 const int kMaxCells = 4096;         // an opaque or left ray ends long before; software GL stops at 65535 turns in all
 const float kSkyDistance_m = 1e12;  // what is not there moves with the camera: only rotation reprojects it
-const float kThinShare = 0.22;      // of the step: optical depth under which one segment serves a brick (0.1 at step 0.45)
+// Optical depth of a segment at the node's greatest density, in steps. Density varies along thin segments as along thick ones, and thin ones
+// do not saturate: they take finer steps. Behind cloud that hides most, errors hide too: steps grow to five times there (docs/decisions/0010).
+const float kDepthShare = 0.75;
+const float kLeastCount = 0.2;
 
 // Seen from outside, at the limb, a voxel's height is seen, not its width: cloud that coarse voxels carry above the source's top would
 // stand out from the disc, and is left out. 1 past the limb, 0 away from it and inside the air, where voxels are small.
@@ -105,7 +108,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
     vec3 parentLocal = 0.5 * local + 3.5 * vec3(walkOctant(walk, t, level));
     float bound = maxCodeValue(wordMaxCode(bounding)) * tree.maxExtinction_per_m * span;
     float halves = span * cellsAlong * perStep * (2.0 / 7.0);
-    float count = bound < kThinShare * tree.step ? 1.0 : max(ceil(min(halves, bound) / tree.step), 1.0);
+    float finer = mix(kLeastCount, 1.0, ray.transmittance) / tree.step;
+    float count = max(ceil(min(halves, bound / kDepthShare) * finer), 1.0);
     float dt = span / count;
     float density = tree.maxExtinction_per_m;
     float i = 0.5;

@@ -86,7 +86,7 @@ struct View {
 struct Quality {
   std::uint64_t budget_bytes = 512ull << 20;
   int depth = 16;
-  double step = 0.3;        // length of a march segment in halves of the node's size (cloud_march.glsl)
+  double step = 0.32;       // length of a march segment in halves of the node's size (cloud_march.glsl)
   double detail = 0;        // node size over distance wanted (nodes a radian); 0: as fine as the budget allows
   std::uint32_t seed = 1;
 };

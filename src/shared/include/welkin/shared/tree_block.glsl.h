@@ -34,7 +34,7 @@ struct TreeBlock {
   float maxExtinction_per_m;
   float bandBase_m, bandTop_m;
   float planetRadius_m;
-  float step;               // length of a march segment in halves of the node's size; its optical depth where that asks for fewer
+  float step;               // length of a march segment in halves of the node's size; three quarters of it as optical depth where that asks for fewer
   uint depth;
   uint mapBase;             // coarsest octree map's level: its 64^3 cells or fewer cover the root
   float atlasDepthInverse;  // 1 / texels along z of a brick texture
