@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <stdexcept>
 
 #include "job_queue.h"
@@ -17,6 +18,9 @@ constexpr double kLeastDetail = 1e-9, kGlideFrom = 1.0 / 64;
 constexpr double kGlideUp = 1.005, kGlideDown = 0.95;
 // A level is sampled from 3/8 of its range on: its child's range is half of it, and the last quarter of that blends with this level.
 constexpr double kSampledFrom = 0.375;
+// A brick's light looks at its neighbours towards the sun. Those that come in the same frames as it may be missing when it is lit first, so it
+// is lit once more after this many steps, before it is sampled: what is new is resident earlier than that. A cut lights all anew at its end.
+constexpr std::uint64_t kLightAgain = 6;
 constexpr std::uint32_t kMaxNewGroups = 1024;  // a step: bounds of their children cost most of it
 
 }  // namespace
@@ -44,7 +48,7 @@ struct StreamState::Impl {
   bool reselect();
   void followDetail(bool snap);
   void findBand(NodeIndex node, const NodeView& view, const NodeView::Seen& above);
-  void writeOut(FrameEdits& edits);
+  void writeOut(FrameEdits& edits, bool snap);
   ResidencyStats stats(bool settled) const;
 
   const DensitySource& source;
@@ -62,6 +66,13 @@ struct StreamState::Impl {
   double targetDetail = 0;  // where it glides to
   double drawnDetail = 0;   // K at which rays sample: that, or what a pixel asks for
   float bandBase_m = 0, bandTop_m = 0;
+  struct Relight {
+    std::uint64_t step;
+    BrickIndex brick;
+    std::uint32_t ticket;
+  };
+  std::deque<Relight> relight;  // in order of their steps
+  std::uint64_t steps = 0;
 };
 
 // The root and its seven unused siblings: the GPU's buffer starts as anything.
@@ -149,7 +160,7 @@ void StreamState::Impl::findBand(NodeIndex node, const NodeView& view, const Nod
   for (std::uint32_t octant = 0; octant < 8; ++octant) findBand(nodeOf(n.children, octant), view, seen);
 }
 
-void StreamState::Impl::writeOut(FrameEdits& edits) {
+void StreamState::Impl::writeOut(FrameEdits& edits, bool snap) {
   auto& touched = changes.touched;
   std::sort(touched.begin(), touched.end());
   for (const NodeIndex node : touched) {
@@ -176,6 +187,13 @@ void StreamState::Impl::writeOut(FrameEdits& edits) {
     if (!reachable(node) || n.brick.isZero() || n.pending) continue;
     const NodeAddress at = tree.address(node);
     edits.light.push_back({n.brick.value, at.corner, at.level});
+    if (!snap) relight.push_back({steps + kLightAgain, n.brick, tree.ticket(n.brick)});
+  }
+  for (; !relight.empty() && relight.front().step <= steps; relight.pop_front()) {
+    const Relight& due = relight.front();
+    if (tree.ticket(due.brick) != due.ticket || !reachable(tree.owner(due.brick))) continue;
+    const NodeAddress at = tree.address(tree.owner(due.brick));
+    edits.light.push_back({due.brick.value, at.corner, at.level});
   }
   changes.clear();
 }
@@ -218,12 +236,13 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
     if (tree.group(kRootGroup).reachable) findBand(kRootNode, NodeView(root, view), {});
     if (bandBase_m > bandTop_m) bandBase_m = bandTop_m = 0;
   }
-  writeOut(edits);
+  ++steps;
+  writeOut(edits, input.snap);
   edits.sampleDetail = static_cast<float>(detail);
   edits.sampleNear_m = static_cast<float>(motion.view().near_m);
   edits.bandBase_m = bandBase_m;
   edits.bandTop_m = bandTop_m;
-  edits.stats = stats(idle && detail == targetDetail && motion.view().near_m == 0);
+  edits.stats = stats(idle && relight.empty() && detail == targetDetail && motion.view().near_m == 0);
   return edits;
 }
 

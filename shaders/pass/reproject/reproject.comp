@@ -20,8 +20,10 @@ const float kResampleError = 0.03; // of 1: chosen for an error of 0.015 rms at 
 const float kGreatChange = 0.06;   // of 1: a change over this is not smooth enough to be interpolated
 
 // History is valid for as many frames as the camera takes to move by this share of the cloud's distance, and for one round of the 4 x 4.
+// Where that is under kLeastAge it is not used at all: a pixel of history among new ones would show.
 const float kParallax = 0.07;
 const float kRound = 16.0;
+const float kLeastAge = 3.0;
 
 // How far interpolation may be off here: contrast of the four texels around, as it will be seen, times the distance from the nearest.
 // A pixel is resampled up to 15 times until it is marched again, so little is much.
@@ -60,7 +62,8 @@ void main() {
     light = changed;
   }
   uint age = texelFetch(u_oldAge, ivec2(h.at), 0).x + 1u;
-  if (float(age) > min(kParallax * h.expected / max(length(u_move), 1e-3), kRound)) valid = false;
+  float most = min(kParallax * h.expected / max(length(u_move), 1e-3), kRound);
+  if (float(age) > most || most < kLeastAge) valid = false;
   if (!valid) {
     uint slot = atomicAdd(count, 1u);
     pixels[slot] = uint(pixel.x) | (uint(pixel.y) << 16u);

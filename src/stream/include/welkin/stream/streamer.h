@@ -74,7 +74,7 @@ struct FrameEdits {
   std::vector<BrickJob> generate;        // nearest first
   std::vector<NodeWrite> nodes;
   std::vector<DirtyNode> dirty;
-  std::vector<BrickJob> light;           // bricks that the node writes of this frame made visible
+  std::vector<BrickJob> light;           // bricks that the node writes of this frame made visible, or some frames ago: once more
   float sampleDetail = 1;                // K: a ray samples level L up to K * nodeSize(L) away; resident by construction
   float sampleNear_m = 0;                // nearer than this a ray samples as if it were this far: a fast camera cannot refine its feet
   float bandBase_m = 0, bandTop_m = 0;   // altitudes that resident, non-zero data fills
