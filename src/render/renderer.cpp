@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <deque>
+#include <future>
 
 #include "render/bricks/brick_passes.h"
 #include "render/march/cloud_passes.h"
@@ -86,6 +87,12 @@ Result<void> Renderer::Impl::create() {
   auto counterBuffer = gpu::Buffer::create(account, "counters", sizeof(shared::Counters));
   if (!counterBuffer) return counterBuffer.error();
   counters = std::move(*counterBuffer);
+  // The source reads and resamples its cover picture while the tables are made and the ground's picture is read.
+  std::future<Result<std::unique_ptr<DensitySource>>> sourceMade;
+  if (plan.clouds) {
+    root = RootFrame::enclosing(scene.planet.radius_m, kCloudShell_m);
+    sourceMade = std::async(std::launch::async, [this] { return makeDensitySource(scene, root); });
+  }
   if (plan.air) {
     auto tables = SkyTables::create(account, scene);
     if (!tables) return tables.error();
@@ -102,8 +109,7 @@ Result<void> Renderer::Impl::create() {
   composite.emplace(std::move(*compositePass));
   if (!plan.clouds) return {};
 
-  root = RootFrame::enclosing(scene.planet.radius_m, kCloudShell_m);
-  auto made = makeDensitySource(scene, root);
+  auto made = sourceMade.get();
   if (!made) return made.error();
   source = std::move(*made);
   if (!source->note().empty()) note(source->note());
