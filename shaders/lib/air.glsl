@@ -13,21 +13,22 @@ struct AirView {
 
 vec2 airTexel(vec2 coord, vec2 size) { return (0.5 + coord * (size - 1.0)) / size; }
 
-// Towards the sun; 0 in the planet's shadow, soft by the sun's angular size. Altitudes above the shell count as its top.
-vec3 airSunTransmittance(sampler2D depthToTop, AirParams air, float altitude_m, float muSun) {
+// Towards the sun; 0 in the planet's shadow, soft by the sun's angular size. Altitudes above the shell count as its top. The table has
+// the logarithm of the optical depth, the mean over the visible part of the disc, placed by the disc's upper edge.
+vec3 airSunTransmittance(sampler2D sunDepth, AirParams air, float altitude_m, float muSun) {
   float h = clamp(altitude_m, 0.0, air.top_m);
-  // The visible part of a disc that the edge cuts lies on or above the edge.
-  float mu = max(muSun, horizonCosine(air.radius_m, h));
-  vec2 uv = airTexel(transmittanceCoord(air, h, mu), vec2(textureSize(depthToTop, 0)));
-  return exp(-textureLod(depthToTop, uv, 0.0).rgb) * sunVisible(air, h, muSun);
+  float mu = max(sunEdgeCosine(air, muSun), horizonCosine(air.radius_m, h));
+  vec2 uv = airTexel(transmittanceCoord(air, h, mu), vec2(textureSize(sunDepth, 0)));
+  return exp(-exp(textureLod(sunDepth, uv, 0.0).rgb)) * sunVisible(air, h, muSun);
 }
 
+// The table has logarithms, planes facing up first, then below them those facing down.
 AirLight airSkyIrradiance(sampler2D irradiance, AirParams air, float altitude_m, float muSun) {
   vec2 size = vec2(textureSize(irradiance, 0)) * vec2(1.0, 0.5);  // two tables, one above the other
-  vec2 uv = airTexel(vec2(sunCoord(muSun), altitudeCoord(air, altitude_m)), size) * vec2(1.0, 0.5);
+  vec2 uv = airTexel(vec2(sunCoord(air, muSun), altitudeCoord(air, altitude_m)), size) * vec2(1.0, 0.5);
   AirLight light;
-  light.fromAbove = textureLod(irradiance, uv, 0.0).rgb * sunIrradiance(air);
-  light.fromBelow = textureLod(irradiance, uv + vec2(0.0, 0.5), 0.0).rgb * sunIrradiance(air);
+  light.fromAbove = exp(textureLod(irradiance, uv, 0.0).rgb) * sunIrradiance(air);
+  light.fromBelow = exp(textureLod(irradiance, uv + vec2(0.0, 0.5), 0.0).rgb) * sunIrradiance(air);
   return light;
 }
 

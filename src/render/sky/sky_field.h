@@ -1,0 +1,48 @@
+#pragma once
+// The field of diffuse light, order after order (lib/air_field.glsl): what every point sees of one order (gather), its moments (project),
+// which are the source of the next order. The orders' sum is extrapolated.
+#include <functional>
+#include <vector>
+
+#include "welkin/gpu/memory.h"
+#include "welkin/gpu/program.h"
+#include "welkin/gpu/resources.h"
+#include "welkin/render/sky/sky_model.h"
+#include "welkin/shared/air.glsl.h"
+
+namespace welkin {
+
+class SkyField {
+ public:
+  // `defines`: of the scene's layers. The air block and the sun's depth must be bound when advance() runs.
+  static Result<SkyField> create(gpu::MemoryAccount& account, const SkyModel& model, const shared::AirBlock& air, const gpu::Defines& defines);
+
+  // One slice of the work: some rows of one order, or its end. False when all is done. After each order the tables hold the light so far.
+  bool advance();
+  double progress() const;  // 0..1, by the greatest number of orders
+
+  void bind() const;  // field and irradiance to their units
+  const gpu::Texture& irradiance() const { return irradiance_; }
+  int orders() const { return int(orders_.size()); }
+  double rest() const { return rest_; }  // estimate of what the orders left out are of the light, greatest of the three wavelengths
+  std::size_t bytes() const;
+
+ private:
+  using Moments = std::vector<glm::vec4>;
+  std::size_t points() const { return std::size_t(model_.sunTexels) * model_.altitudeTexels; }
+  void gatherRows();
+  void endOrder();
+  void store(const Moments& moments);
+  Moments sum();  // of all orders, extrapolated; sets rest_
+
+  SkyModel model_;
+  int aboutVertical_ = 0, directions_ = 0, row_ = 0;
+  bool done_ = false;
+  double rest_ = 1;
+  std::vector<Moments> orders_;
+  gpu::Buffer directionList_, radiance_, moments_;
+  gpu::Texture field_, irradiance_;
+  gpu::Program first_, next_, project_, store_;
+};
+
+}  // namespace welkin
