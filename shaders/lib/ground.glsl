@@ -12,6 +12,7 @@ vec3 groundAlbedoFrom(sampler2D map, vec3 normal, float radius_m, float pixel_m)
 // Radiance of the sun's disc, averaged over the pixel's rim; irradiance: at the planet. Linear limb darkening I(m)/I(1) = 1 - u (1 - m)
 // with u = 0.47, 0.62, 0.78 at 680, 550, 440 nm (fits to the solar limb, Allen 1976), whose mean over the disc is 1 - u / 3.
 vec3 sunDisc(vec3 dir, vec3 toSun, float radius_rad, float pixel_rad, vec3 irradiance) {
+  if (radius_rad <= 0.0) return vec3(0.0);  // a point has no disc to draw
   float angle = 2.0 * asin(min(0.5 * length(dir - toSun), 1.0));  // the chord does not cancel as the cosine would
   float cover = clamp((radius_rad - angle) / pixel_rad + 0.5, 0.0, 1.0);
   float rho = min(angle / radius_rad, 1.0);

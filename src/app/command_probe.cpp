@@ -1,0 +1,80 @@
+#include "commands.h"
+#include "probe_csv.h"
+#include "welkin/core/files.h"
+#include "welkin/core/log.h"
+#include "welkin/core/progress.h"
+#include "welkin/physics/scene_io.h"
+#include "welkin/reference/parallel.h"
+#include "welkin/reference/radiance.h"
+
+namespace welkin::app {
+namespace {
+
+struct ProbeOptions {
+  CommonOptions common;
+  std::filesystem::path scene, rays, out;
+  std::string method = "reference";
+  int orders = 0;  // 0: all
+  unsigned threads = 0;
+};
+
+struct Probed {
+  std::vector<ProbeResult> results;  // one a ray
+  bool withErrors = false;           // results carry standard errors
+};
+
+Result<Probed> probeReference(const Scene& scene, const std::vector<ProbeRay>& rays, const ProbeOptions& o) {
+  auto medium = reference::makeMedium(scene);
+  if (!medium) return Error{fmt::format("{}: {}", o.scene.string(), medium.error().message)};
+  if (o.orders != 1) return Error{"all orders of scattering are not there yet: use --orders 1"};
+  Probed out;
+  out.results.resize(rays.size());
+  Progress progress("probe", o.common.quiet);
+  reference::forEach(
+      rays.size(), o.threads, [&](std::size_t i) { out.results[i] = reference::singleOrderRadiance(*medium, rays[i]); },
+      [&](std::size_t done) { progress.update(double(done) / double(rays.size())); });
+  return out;
+}
+
+Result<void> runProbe(const ProbeOptions& o) {
+  beginCommand(o.common);
+  if (!o.out.empty()) {
+    if (auto writable = checkWritableFile(o.out); !writable) return writable;
+  }
+  auto scene = loadScene(o.scene);
+  if (!scene) return scene.error();
+  if (scene->clouds) log::warn("the scene's clouds are left out: probe is of the clear air");
+  auto table = readProbeTable(o.rays);
+  if (!table) return table.error();
+  if (o.method != "reference") return Error{fmt::format("method {} is not there yet", o.method)};
+  auto probed = probeReference(*scene, table->rays, o);
+  if (!probed) return probed.error();
+  const std::string text = probeResultText(*table, probed->results, probed->withErrors);
+  if (!o.out.empty()) return writeFile(o.out, text);
+  fmt::print("{}", text);
+  return {};
+}
+
+}  // namespace
+
+void addProbe(CLI::App& app, Action& action) {
+  auto o = std::make_shared<ProbeOptions>();
+  auto* command = app.add_subcommand("probe", "radiance and transmittance along rays through the clear air, for a solar irradiance of 1");
+  command->footer(
+      "Rays are rows of a CSV: altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg[,max_distance_m]\n"
+      "[,latitude_deg,longitude_deg], in any order. Clouds of the scene are left out.\n"
+      "Example:\n  welkin probe scenes/earth.json --rays rays.csv -o sky.csv --method reference --orders 1");
+  command->add_option("SCENE", o->scene, "a scene (JSON)")->required();
+  command->add_option("--rays", o->rays, "the rays, CSV")->required();
+  command->add_option("-o,--output", o->out, "write here; else to stdout");
+  command->add_option("--method", o->method, "reference, tables-4d, tables-2d or march")
+      ->check(CLI::IsMember({"reference", "tables-4d", "tables-2d", "march"}));
+  command->add_option("--orders", o->orders, "times that light may meet air or ground at most; 1: single scattering. Default: any")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--threads", o->threads, "threads of the reference; default: one a core")->check(CLI::Range(1, 1024));
+  addGpuOption(*command, o->common);
+  command->add_flag("--quiet,-q", o->common.quiet, "no log lines and no progress bar, only warnings and errors");
+  command->callback([o, &action] { action = [o] { return runProbe(*o); }; });
+}
+
+}  // namespace welkin::app
