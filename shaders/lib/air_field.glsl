@@ -2,7 +2,8 @@
 // harmonics about the direction towards the sun, azimuth from the vertical: the light of a planet lit by one sun is even in it, and a
 // forward peak needs azimuth 0 only. All m up to degree FIELD_DEGREE, then m = 0 alone up to FIELD_ZONAL. A medium with Legendre moments
 // chi_l scatters the field into the direction w as  sum_lm chi_l Y_lm(w) integral Y_lm L  (addition theorem).
-// Layer lm of the table: the moment over that of l = 0, which is stored as its logarithm: light falls exponentially in twilight and with depth.
+// Layer lm of the table: the moment over that of l = 0, which is stored as its logarithm: light falls exponentially in twilight and with
+// depth; over the m-th power of the sine of the sun's zenith angle (azimuthal).
 #include "lib/air.glsl"
 
 const int kFieldCount = (FIELD_DEGREE + 1) * (FIELD_DEGREE + 2) / 2 + FIELD_ZONAL - FIELD_DEGREE;
@@ -46,17 +47,13 @@ float[kFieldCount] harmonics(float c) {
   return y;
 }
 
-// sin^m cos(m azimuth) for m = 0..4. across: component of the direction along the vertical's part across the sun; sin2: squared sine of
-// the angle from the sun.
-float[5] azimuthal(float across, float sin2) {
-  float a2 = across * across;
-  return float[5](1.0, across, 2.0 * a2 - sin2, across * (4.0 * a2 - 3.0 * sin2), 8.0 * a2 * (a2 - sin2) + sin2 * sin2);
-}
-
-// Of a direction with zenith cosine mu and cosine c to the sun. Sun in the zenith or nadir: no azimuth, any finite value serves.
-float acrossSun(float mu, float muSun, float c) {
-  float s = sqrt(max(1.0 - c * c, 0.0));
-  return clamp((mu - muSun * c) * inversesqrt(max(1.0 - muSun * muSun, 1.17549435e-38)), -s, s);
+// cos(m azimuth) times the m-th power of the sines of the angles from the sun to the direction (cosine c) and to the zenith, m = 0..4; mu:
+// zenith cosine of the direction. The second sine is what moments of that m lack in the table, so that nothing there is singular with the
+// sun in the zenith.
+float[5] azimuthal(float mu, float muSun, float c) {
+  float a = mu - muSun * c;
+  float a2 = a * a, s2 = max(1.0 - c * c, 0.0) * max(1.0 - muSun * muSun, 0.0);
+  return float[5](1.0, a, 2.0 * a2 - s2, a * (4.0 * a2 - 3.0 * s2), 8.0 * a2 * (a2 - s2) + s2 * s2);
 }
 
 vec2 fieldTexel(AirParams air, vec2 size, float altitude_m, float muSun) {

@@ -67,7 +67,6 @@ AirSum airNothing() { return AirSum(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 struct AirTerms {
   float factors[AIR_LAYERS];
   float harmonics[kFieldCount];
-  float sin2;
 };
 
 struct AirNode {
@@ -85,13 +84,13 @@ AirNode airNode(sampler2D sunDepth, sampler2DArray field, AirBlock air, AirPath 
 #endif
 #if DIFFUSE
   vec2 uv = fieldTexel(air.params, vec2(textureSize(field, 0).xy), place.altitude_m, place.muSun);
-  node.light += fieldSource(field, uv, p.diffuse, terms.harmonics, azimuthal(acrossSun(place.mu, place.muSun, path.cosine), terms.sin2));
+  node.light += fieldSource(field, uv, p.diffuse, terms.harmonics, azimuthal(place.mu, place.muSun, path.cosine));
 #endif
   return node;
 }
 
 AirTerms airTerms(AirPath path, float factors[AIR_LAYERS]) {
-  return AirTerms(factors, harmonics(path.cosine), max(1.0 - path.cosine * path.cosine, 0.0));
+  return AirTerms(factors, harmonics(path.cosine));
 }
 
 // The piece from t0 to t1: two Gauss nodes, optical depth at them by collocation (order 4). The light is scaled to what a constant

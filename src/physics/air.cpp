@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace welkin {
@@ -116,10 +117,11 @@ Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
   for (const AirLayer& layer : atmosphere.layers) scale_m = std::min(scale_m, thickness_m(layer));
   p.altitudeScale_m = static_cast<float>(scale_m);
   p.altitudeNorm = static_cast<float>(1 / std::log1p(atmosphere.top_m / scale_m));
-  // Twilight lasts while the sun is between the horizon and twice its dip from the shell's top; half of the table's negative side
-  // is for that.
-  const double dipSine = std::sqrt(atmosphere.top_m * (2 * scene.planet.radius_m + atmosphere.top_m)) / (scene.planet.radius_m + atmosphere.top_m);
-  p.sunBend = static_cast<float>(std::min(0.7 / dipSine, 64.0));
+  // A point sees light that was scattered once while the sun is less than twice the dip of the shell's horizon below its own; three
+  // times leaves room for higher orders, of which four dips away nothing is left.
+  const double dip = std::acos(scene.planet.radius_m / (scene.planet.radius_m + atmosphere.top_m));
+  p.sunNight = static_cast<float>(std::sin(std::min(3 * dip, std::numbers::pi / 2)));
+  p.sunBend = 3;
   float strongest = 0;
   for (std::uint32_t i = 0; i < p.layerCount; ++i) {
     auto layer = layerOf(atmosphere.layers[i], degree);

@@ -13,17 +13,19 @@ void main() {
   int point = int(gl_GlobalInvocationID.x), points = u_size.x * u_size.y;
   if (point >= points) return;
   vec2 coord = vec2(point % u_size.x, point / u_size.x) / (vec2(u_size.xy) - 1.0);
-  float altitude = coordAltitude(u_air.params, coord.y), muSun = sunCosine(u_air.params, coord.x);
+  float altitude = coordAltitude(u_air.params, coord.y), muSun = gatherSun(u_air.params, coord.x);
+  float sin2 = 1.0 - muSun * muSun, scale[5];
+  for (int m = 0; m < 5; ++m) scale[m] = m == 0 ? 1.0 : scale[m - 1] / sin2;
   vec3 sums[kFieldCount], up = vec3(0.0), down = vec3(0.0);
   for (int i = 0; i < kFieldCount; ++i) sums[i] = vec3(0.0);
   for (int k = 0; k < u_size.z; ++k) {
     GatherDirection d = gatherDirection(u_air.params, directions[k], k >= u_aboutVertical, altitude, muSun);
     vec3 light = radiance[k * points + point].rgb * d.weight;
     float y[kFieldCount] = harmonics(d.cosine);
-    float turn[5] = azimuthal(acrossSun(d.mu, muSun, d.cosine), max(1.0 - d.cosine * d.cosine, 0.0));
+    float turn[5] = azimuthal(d.mu, muSun, d.cosine);
     int i = 0;
     for (int l = 0; l <= FIELD_ZONAL; ++l)
-      for (int m = 0; m <= (l > FIELD_DEGREE ? 0 : l); ++m) sums[i] += y[i] * turn[m] * light, ++i;
+      for (int m = 0; m <= (l > FIELD_DEGREE ? 0 : l); ++m) sums[i] += y[i] * turn[m] * scale[m] * light, ++i;
     up += max(d.mu, 0.0) * light;
     down += max(-d.mu, 0.0) * light;
   }

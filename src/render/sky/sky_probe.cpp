@@ -10,14 +10,27 @@ namespace welkin {
 namespace {
 
 // As probe.comp has it.
+constexpr int kStretches = 16, kPieces = 6;
 struct ProbePath {
-  glm::vec4 anchor, ends, rest{0, 0, 0, 0};
+  glm::vec4 anchor{0}, rest{0};
+  std::array<float, kStretches> ends{};
 };
-constexpr int kPieces = 10;  // of each of four stretches
+
+// Altitudes where a profile has a corner, and a scale height's fivefold, below which it changes fastest.
+std::vector<double> cornerAltitudes(const Atmosphere& atmosphere) {
+  std::vector<double> corners;
+  for (const AirLayer& layer : atmosphere.layers) {
+    if (const auto* e = std::get_if<ExponentialProfile>(&layer.profile)) corners.push_back(5 * e->scaleHeight_m);
+    if (const auto* t = std::get_if<TentProfile>(&layer.profile))
+      corners.insert(corners.end(), {t->peak_m - t->halfWidth_m, t->peak_m, t->peak_m + t->halfWidth_m});
+    if (const auto* u = std::get_if<UniformProfile>(&layer.profile)) corners.insert(corners.end(), {u->base_m, u->top_m});
+  }
+  return corners;
+}
 
 // The ray from where it enters the shell, and the places where the path or its light has a kink: lowest point, edges of the planet's
 // shadow. All in double. `length` 0: the ray misses the air.
-ProbePath probePath(double radius, double top, const SkyRay& ray) {
+ProbePath probePath(double radius, double top, const std::vector<double>& corners, const ProbeRay& ray) {
   const double observer = std::max(ray.altitude_m, 0.0);
   double muView = std::cos(ray.viewZenith_rad), muSun = std::cos(ray.sunZenith_rad);
   const double sinView = std::sin(ray.viewZenith_rad), sinSun = std::sin(ray.sunZenith_rad);
@@ -26,7 +39,6 @@ ProbePath probePath(double radius, double top, const SkyRay& ray) {
   double h = observer, r = radius + h, left = ray.maxDistance_m;
   const auto none = [&] {
     path.anchor = {float(top), 1, float(muSun), float(cosine)};
-    path.ends = glm::vec4(0);
     return path;
   };
   if (h > top) {
@@ -56,23 +68,33 @@ ProbePath probePath(double radius, double top, const SkyRay& ray) {
     for (const double t : {q / a, q != 0 ? rest / q : 0.0})
       if (t > 0 && t < length && r * muSun + t * cosine < 0) kinks.push_back(t);
   }
+  for (const double corner : corners) {
+    const double c = (h - corner) * (r + radius + corner), square = b * b - c;
+    if (square <= 0) continue;
+    const double q = -(b + std::copysign(std::sqrt(square), b));
+    for (const double t : {q, q != 0 ? c / q : 0.0})
+      if (t > 0 && t < length) kinks.push_back(t);
+  }
+  if (kinks.size() >= kStretches) kinks.resize(kStretches - 1);  // the last ones are the corners of layers beyond the sixth
   std::sort(kinks.begin(), kinks.end());
-  kinks.resize(3, length);
+  kinks.resize(kStretches, length);
   path.anchor = {float(h), float(muView), float(muSun), float(cosine)};
-  path.ends = {float(kinks[0]), float(kinks[1]), float(kinks[2]), float(length)};
+  std::transform(kinks.begin(), kinks.end(), path.ends.begin(), [](double t) { return float(t); });
   path.rest.x = ground && end <= left ? 1.0f : 0.0f;
   return path;
 }
 
 }  // namespace
 
-Result<std::vector<SkyAnswer>> probeSky(gpu::MemoryAccount& account, SkyTables& tables, const Scene& scene, std::span<const SkyRay> rays) {
+Result<std::vector<ProbeResult>> probeSky(gpu::MemoryAccount& account, SkyTables& tables, const Scene& scene, std::span<const ProbeRay> rays) {
   gpu::Defines defines = tables.drawDefines();
+  defines.emplace_back("STRETCHES", std::to_string(kStretches));
   defines.emplace_back("PIECES", std::to_string(kPieces));
   auto program = gpu::Program::compute("pass/sky/probe.comp", defines);
   if (!program) return program.error();
+  const std::vector<double> corners = cornerAltitudes(*scene.atmosphere);
   std::vector<ProbePath> paths;
-  for (const SkyRay& ray : rays) paths.push_back(probePath(scene.planet.radius_m, scene.atmosphere->top_m, ray));
+  for (const ProbeRay& ray : rays) paths.push_back(probePath(scene.planet.radius_m, scene.atmosphere->top_m, corners, ray));
   auto in = gpu::Buffer::create(account, "probe", std::max<std::size_t>(paths.size(), 1) * sizeof(ProbePath));
   if (!in) return in.error();
   auto out = gpu::Buffer::create(account, "probe", std::max<std::size_t>(paths.size(), 1) * 2 * sizeof(glm::vec4));
@@ -86,7 +108,7 @@ Result<std::vector<SkyAnswer>> probeSky(gpu::MemoryAccount& account, SkyTables& 
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   std::vector<glm::vec4> answers(2 * paths.size());
   out->download(0, std::as_writable_bytes(std::span(answers)));
-  std::vector<SkyAnswer> result(paths.size());
+  std::vector<ProbeResult> result(paths.size());
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (int c = 0; c < 3; ++c) {
       result[i].radiance[std::size_t(c)] = answers[2 * i][c];

@@ -29,9 +29,9 @@ struct AirParams {
   uint peakLayer;                        // the layer whose phase function is too sharp to be stored in tables, or kNoLayer
   uint peakPhase;
   float altitudeScale_m, altitudeNorm;   // of altitudeCoord
-  float sunBend;                         // of sunCoord
+  float sunBend, sunNight;               // of sunCoord
   float sunCos, sunSin;                  // of the sun's angular radius
-  float spare0, spare1;
+  float spare;
 };
 
 // What look-ups need of the camera the view tables were made for. The anchor is the camera, or outside the shell the ray's entry.
@@ -154,11 +154,17 @@ WK_FN float altitudeCoord(AirParams p, float altitude_m) {
 }
 WK_FN float coordAltitude(AirParams p, float coord) { return min(p.altitudeScale_m * (exp(coord / p.altitudeNorm) - F(1.0)), p.top_m); }
 
-// Sun's zenith cosine -1..1, 1 + sunBend times as dense at the horizon as on average.
-WK_FN float sunCoord(AirParams p, float mu) { return F(0.5) + F(0.5) * (F(1.0) + p.sunBend) * mu / (F(1.0) + p.sunBend * abs(mu)); }
+// Sun's zenith cosine: a part kNightTexels of the texels from -sunNight (below it is no light) to 0, the others up to 1; on each side
+// 1 + sunBend times as dense at the horizon as on average.
+WK_CONST float kNightTexels = F(0.4);
+WK_FN float sunCoord(AirParams p, float mu) {
+  float side = mu < F(0.0) ? max(mu / p.sunNight, F(-1.0)) : mu;
+  return kNightTexels + (F(1.0) + p.sunBend) * side / (F(1.0) + p.sunBend * abs(side)) * (mu < F(0.0) ? kNightTexels : F(1.0) - kNightTexels);
+}
 WK_FN float sunCosine(AirParams p, float coord) {
-  float v = F(2.0) * coord - F(1.0);
-  return v / (F(1.0) + p.sunBend * (F(1.0) - abs(v)));
+  float side = coord < kNightTexels ? coord / kNightTexels - F(1.0) : (coord - kNightTexels) / (F(1.0) - kNightTexels);
+  float mu = side / (F(1.0) + p.sunBend * (F(1.0) - abs(side)));
+  return coord < kNightTexels ? mu * p.sunNight : mu;
 }
 
 // Optical depth to the top: x along the distance to the top (Bruneton and Neyret 2008); y the square root of the altitude's
