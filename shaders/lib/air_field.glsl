@@ -6,6 +6,11 @@
 // depth; over the m-th power of the sine of the sun's zenith angle (azimuthal).
 #include "lib/air.glsl"
 
+#ifndef READ_DEGREE
+#define READ_DEGREE FIELD_DEGREE
+#define READ_ZONAL FIELD_ZONAL
+#endif
+
 const int kFieldCount = (FIELD_DEGREE + 1) * (FIELD_DEGREE + 2) / 2 + FIELD_ZONAL - FIELD_DEGREE;
 const float kDark = 1e-30;  // stands for no light where logarithms are stored
 
@@ -60,13 +65,18 @@ vec2 fieldTexel(AirParams air, vec2 size, float altitude_m, float muSun) {
   return airTexel(vec2(sunCoord(air, muSun), altitudeCoord(air, altitude_m)), size);
 }
 
-// Radiance scattered per metre. weight[l]: sum over layers of scattering [1/m] times chi_l.
+// Where the table has the moment lm.
+int momentLayer(int l, int m) { return l <= FIELD_DEGREE ? l * (l + 1) / 2 + m : kFieldCount - 1 - FIELD_ZONAL + l; }
+
+// Radiance scattered per metre. weight[l]: sum over layers of scattering [1/m] times chi_l. READ_DEGREE, READ_ZONAL: how much of the series.
 vec3 fieldSource(sampler2DArray field, vec2 uv, vec3 weight[FIELD_ZONAL + 1], float y[kFieldCount], float turn[5]) {
   vec3 sum = weight[0] * y[0];
-  int i = 1;
-  for (int l = 1; l <= FIELD_ZONAL; ++l) {
+  for (int l = 1; l <= READ_ZONAL; ++l) {
     vec3 part = vec3(0.0);
-    for (int m = 0; m <= (l > FIELD_DEGREE ? 0 : l); ++m) part += y[i] * turn[m] * textureLod(field, vec3(uv, float(i)), 0.0).rgb, ++i;
+    for (int m = 0; m <= (l > READ_DEGREE ? 0 : l); ++m) {
+      int i = momentLayer(l, m);
+      part += y[i] * turn[m] * textureLod(field, vec3(uv, float(i)), 0.0).rgb;
+    }
     sum += weight[l] * part;
   }
   return max(sum, vec3(0.0)) * exp(textureLod(field, vec3(uv, 0.0), 0.0).rgb);  // a cut series may dip below 0

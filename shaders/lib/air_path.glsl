@@ -41,7 +41,7 @@ AirPoint airPoint(AirBlock air, float altitude_m, float factors[AIR_LAYERS]) {
     vec3 scattering = layerScattering(layer) * density;
     if (kDegrees[i] >= 0) p.single += scattering * factors[i];
     if (i == AIR_PEAK_LAYER) p.peak = scattering;
-    for (int l = 0; l <= min(kDegrees[i], FIELD_ZONAL); ++l) p.diffuse[l] += scattering * (layer.moments[l >> 2][l & 3] - layer.forward);
+    for (int l = 0; l <= min(kDegrees[i], READ_ZONAL); ++l) p.diffuse[l] += scattering * (layer.moments[l >> 2][l & 3] - layer.forward);
   }
   return p;
 }

@@ -5,13 +5,23 @@ layout(local_size_x = 8, local_size_y = 4) in;
 layout(std140, binding = WK_AIR_PARAMS_BINDING) uniform AirUniforms { AirBlock u_air; };
 layout(binding = WK_SKY_TRANSMITTANCE_UNIT) uniform sampler2D u_sunDepth;
 layout(binding = WK_SKY_FIELD_UNIT) uniform sampler2DArray u_field;
+layout(binding = WK_SKY_VIEW_SCATTER_UNIT) uniform sampler3D u_diffuse;
 layout(rgba16f, binding = 0) uniform writeonly image3D u_scatter;
 layout(rgba16f, binding = 1) uniform writeonly image2D u_depth;
 
 void store(uvec2 id, uint slice, vec3 light, vec3 peak, vec3 depth, float scale) {
-  vec3 sun = sunIrradiance(u_air.params) * scale;
-  imageStore(u_scatter, ivec3(id, slice), vec4(light * sun, 0.0));
-  imageStore(u_scatter, ivec3(id, slice + kViewSlices), vec4(peak * sun, 0.0));
+  vec3 sun = sunIrradiance(u_air.params), diffuse = vec3(0.0);
+#if VIEW_DIFFUSE
+  bool ground = id.x < kViewGroundTexels;
+  float u = ground ? float(id.x) / float(kViewGroundTexels - 1u) : float(id.x - kViewGroundTexels) / float(kViewSkyTexels - 1u);
+  float count = float(ground ? kDiffuseGroundTexels : kDiffuseSkyTexels);
+  vec3 at = vec3(((ground ? 0.0 : float(kDiffuseGroundTexels)) + texelCoord(u, count) * count) / float(kDiffuseGroundTexels + kDiffuseSkyTexels),
+                 texelCoord(float(id.y) / float(kViewAzimuths - 1u), float(kDiffuseAzimuths)),
+                 texelCoord(float(slice) / float(kViewSlices - 1u), float(kDiffuseSlices)));
+  diffuse = textureLod(u_diffuse, at, 0.0).rgb;
+#endif
+  imageStore(u_scatter, ivec3(id, slice), vec4((light * scale + diffuse) * sun, 0.0));
+  imageStore(u_scatter, ivec3(id, slice + kViewSlices), vec4(peak * scale * sun, 0.0));
   if (id.y == 0u) imageStore(u_depth, ivec2(id.x, slice), vec4(depth * scale, 0.0));
 }
 

@@ -94,6 +94,8 @@ Result<void> SkyTables::allocate(gpu::MemoryAccount& account) {
     if (auto r = make(discDepth_, GL_RGBA32F, kTransmittanceWidth, kTransmittanceHeight, 1); !r) return r;
   if (auto r = make(scatter_, GL_RGBA16F, view, kViewAzimuths, 2 * kViewSlices); !r) return r;
   if (auto r = make(depth_, GL_RGBA16F, view, kViewSlices, 1); !r) return r;
+  if (model_.diffuse())
+    if (auto r = make(diffuse_, GL_RGBA32F, kDiffuseGroundTexels + kDiffuseSkyTexels, kDiffuseAzimuths, kDiffuseSlices); !r) return r;
   auto buffer = gpu::Buffer::create(account, "sky", sizeof(AirBlock));
   if (!buffer) return buffer.error();
   params_ = std::move(*buffer);
@@ -115,9 +117,19 @@ Result<void> SkyTables::compute() {
   pointDepth_.bind(WK_SKY_TRANSMITTANCE_UNIT);
   if (discDepth_.id() != 0)
     if (auto r = run("pass/sky/sunlight.comp", discDepth_); !r) return r;
-  auto view = gpu::Program::compute("pass/sky/view.comp", drawDefines());
+  gpu::Defines defines = defines_;
+  defines.insert(defines.end(), {{"SINGLE", "1"}, {"DIFFUSE", "0"}, {"VIEW_DIFFUSE", model_.diffuse() ? "1" : "0"}});
+  auto view = gpu::Program::compute("pass/sky/view.comp", defines);
   if (!view) return view.error();
   viewProgram_ = std::move(*view);
+  if (!model_.diffuse()) return {};
+  defines = defines_;
+  defines.insert(defines.end(), {{"SINGLE", "0"}, {"DIFFUSE", "1"},
+                                 {"READ_DEGREE", std::to_string(std::min(model_.degree, 2))},
+                                 {"READ_ZONAL", std::to_string(std::min(model_.zonal, 6))}});
+  auto diffuse = gpu::Program::compute("pass/sky/view_diffuse.comp", defines);
+  if (!diffuse) return diffuse.error();
+  diffuseProgram_ = std::move(*diffuse);
   return {};
 }
 
@@ -152,6 +164,12 @@ bool SkyTables::updateView(const CameraBlock& camera, glm::dvec3 toSun) {
     params_.upload(0, std::as_bytes(std::span(&rounded, 1)));
     sunDepth().bind(WK_SKY_TRANSMITTANCE_UNIT);
     field_->bind();
+    if (model_.diffuse()) {
+      diffuse_.bindImage(0, GL_WRITE_ONLY);
+      diffuseProgram_.dispatch((kDiffuseGroundTexels + kDiffuseSkyTexels) / 8, kDiffuseAzimuths / 8);
+      tablesWritten();
+      diffuse_.bind(WK_SKY_VIEW_SCATTER_UNIT);
+    }
     scatter_.bindImage(0, GL_WRITE_ONLY);
     depth_.bindImage(1, GL_WRITE_ONLY);
     viewProgram_.dispatch((kViewGroundTexels + kViewSkyTexels) / 8, kViewAzimuths / 4);
@@ -171,7 +189,7 @@ void SkyTables::bind() const {
 }
 
 std::size_t SkyTables::bytes() const {
-  return params_.bytes() + pointDepth_.bytes() + discDepth_.bytes() + field_->bytes() + scatter_.bytes() + depth_.bytes();
+  return params_.bytes() + pointDepth_.bytes() + discDepth_.bytes() + field_->bytes() + diffuse_.bytes() + scatter_.bytes() + depth_.bytes();
 }
 
 }  // namespace welkin

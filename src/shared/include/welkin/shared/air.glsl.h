@@ -218,6 +218,8 @@ WK_FN float texelCoord(float x, float n) { return (F(0.5) + x * (n - F(1.0))) / 
 WK_CONST uint kTransmittanceWidth = 256u, kTransmittanceHeight = 64u;
 WK_CONST uint kViewGroundTexels = 48u, kViewSkyTexels = 112u;             // view direction below and above the horizon
 WK_CONST uint kViewAzimuths = 24u, kViewSlices = 17u;
+WK_CONST uint kDiffuseGroundTexels = 16u, kDiffuseSkyTexels = 32u;        // the same for diffuse light alone
+WK_CONST uint kDiffuseAzimuths = 8u, kDiffuseSlices = 6u;
 
 WK_CONST float kNoDepth = F(1e-12);  // optical depth that stands for none where logarithms are stored
 WK_CONST float kRateLength_m = F(100000.0);  // tables store in-scatter and optical depth per this length: fits 16-bit floats

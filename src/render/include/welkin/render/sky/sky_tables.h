@@ -60,9 +60,9 @@ class SkyTables {
   double keyAltitude_m_ = -1, keyCosSun_ = 2;
   gpu::Defines defines_;
   gpu::Buffer params_;
-  gpu::Texture pointDepth_, discDepth_, scatter_, depth_;
+  gpu::Texture pointDepth_, discDepth_, diffuse_, scatter_, depth_;
   std::unique_ptr<SkyField> field_;
-  gpu::Program viewProgram_;
+  gpu::Program viewProgram_, diffuseProgram_;
 };
 
 }  // namespace welkin
