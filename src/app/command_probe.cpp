@@ -1,12 +1,13 @@
 #include "commands.h"
 #include "probe_csv.h"
 #include "welkin/core/files.h"
-#include "welkin/gpu/context.h"
 #include "welkin/core/log.h"
 #include "welkin/core/progress.h"
+#include "welkin/gpu/context.h"
 #include "welkin/physics/scene_io.h"
 #include "welkin/reference/parallel.h"
 #include "welkin/reference/radiance.h"
+#include "welkin/reference/random.h"
 #include "welkin/render/sky/sky_probe.h"
 
 namespace welkin::app {
@@ -16,8 +17,7 @@ struct ProbeOptions {
   CommonOptions common;
   std::filesystem::path scene, rays, out;
   std::string method = "reference";
-  int orders = 0;  // 0: all
-  unsigned threads = 0;
+  reference::PathSettings paths{.threads = 0};
 };
 
 struct Probed {
@@ -28,25 +28,35 @@ struct Probed {
 Result<Probed> probeReference(const Scene& scene, const std::vector<ProbeRay>& rays, const ProbeOptions& o) {
   auto medium = reference::makeMedium(scene);
   if (!medium) return Error{fmt::format("{}: {}", o.scene.string(), medium.error().message)};
-  if (o.orders != 1) return Error{"all orders of scattering are not there yet: use --orders 1"};
   Probed out;
   out.results.resize(rays.size());
   Progress progress("probe", o.common.quiet);
-  reference::forEach(
-      rays.size(), o.threads, [&](std::size_t i) { out.results[i] = reference::singleOrderRadiance(*medium, rays[i]); },
-      [&](std::size_t done) { progress.update(double(done) / double(rays.size())); });
+  const auto done = [&](std::size_t n) { progress.update(double(n) / double(rays.size())); };
+  if (o.paths.maxOrders == 1) {
+    reference::forEach(
+        rays.size(), o.paths.threads, [&](std::size_t i) { out.results[i] = reference::singleOrderRadiance(*medium, rays[i]); }, done);
+    return out;
+  }
+  out.withErrors = true;
+  const reference::PathTracer tracer(*medium);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    reference::PathSettings paths = o.paths;
+    paths.seed = reference::mixSeeds(o.paths.seed, i);
+    out.results[i] = reference::radiance(*medium, tracer, rays[i], paths);
+    done(i + 1);
+  }
   return out;
 }
 
 Result<Probed> probeTables(Scene scene, const std::vector<ProbeRay>& rays, const ProbeOptions& o) {
-  if (o.orders > 1) return Error{"methods other than reference know --orders 1 and all orders"};
+  if (o.paths.maxOrders > 1) return Error{"methods other than reference know --orders 1 and all orders"};
   if (!scene.atmosphere) return Error{fmt::format("{}: the scene has no atmosphere", o.scene.string())};
   auto context = gpu::Context::createHeadless(o.common.gpu);
   if (!context) return context.error();
   scene.atmosphere->model = o.method;
   scene.sun = scene.sun.value_or(Sun{});
   gpu::MemoryAccount account(scene.quality.budget_bytes);
-  auto tables = SkyTables::create(account, scene, o.orders == 1 ? SkyOrders::First : SkyOrders::All);
+  auto tables = SkyTables::create(account, scene, o.paths.maxOrders == 1 ? SkyOrders::First : SkyOrders::All);
   if (!tables) return Error{fmt::format("{}: {}", o.scene.string(), tables.error().message)};
   auto results = probeSky(account, *tables, scene, rays);
   if (!results) return results.error();
@@ -85,9 +95,13 @@ void addProbe(CLI::App& app, Action& action) {
   command->add_option("-o,--output", o->out, "write here; else to stdout");
   command->add_option("--method", o->method, "reference, tables-4d, tables-2d or march")
       ->check(CLI::IsMember({"reference", "tables-4d", "tables-2d", "march"}));
-  command->add_option("--orders", o->orders, "times that light may meet air or ground at most; 1: single scattering. Default: any")
+  command->add_option("--orders", o->paths.maxOrders, "times that light may meet air or ground at most; 1: single scattering. Default: any")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--threads", o->threads, "threads of the reference; default: one a core")->check(CLI::Range(1, 1024));
+  command->add_option("--relative-error", o->paths.relativeError, "standard error over radiance at which the reference stops (0.003)")
+      ->check(CLI::Range(1e-6, 1.0));
+  command->add_option("--max-paths", o->paths.maxPaths, "paths of a ray at most (4000000)")->check(CLI::Range(1, 2000000000));
+  command->add_option("--seed", o->paths.seed, "seed of the reference: another one is an independent estimate");
+  command->add_option("--threads", o->paths.threads, "threads of the reference; default: one a core")->check(CLI::Range(1, 1024));
   addGpuOption(*command, o->common);
   command->add_flag("--quiet,-q", o->common.quiet, "no log lines and no progress bar, only warnings and errors");
   command->callback([o, &action] { action = [o] { return runProbe(*o); }; });

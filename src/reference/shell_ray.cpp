@@ -48,18 +48,25 @@ double distanceToTop(const ShellRay& ray, double top_m) {
   return both ? std::max((*both)[1], 0.0) : 0;
 }
 
-std::vector<double> splits(const Medium& medium, const ShellRay& ray, double from, double to) {
-  std::vector<double> out{from};
-  out.reserve(2 * medium.levels_m.size() + 3);
+void splitAt(std::span<const double> altitudes_m, const ShellRay& ray, double from, double to, std::vector<double>& out) {
+  out.assign(1, from);
   const auto add = [&](double t) {
     if (t > out.back() && t < to) out.push_back(t);
   };
-  for (auto level = medium.levels_m.rbegin(); level != medium.levels_m.rend(); ++level)
-    if (const auto both = ray.distancesTo(*level)) add((*both)[0]);
+  if (from < ray.tangentDistance_m())
+    for (auto h = altitudes_m.rbegin(); h != altitudes_m.rend(); ++h)
+      if (const auto both = ray.distancesTo(*h)) add((*both)[0]);
   add(ray.tangentDistance_m());
-  for (const double level : medium.levels_m)
-    if (const auto both = ray.distancesTo(level)) add((*both)[1]);
+  if (to > ray.tangentDistance_m())
+    for (const double h : altitudes_m)
+      if (const auto both = ray.distancesTo(h)) add((*both)[1]);
   if (to > from) out.push_back(to);
+}
+
+std::vector<double> splits(const Medium& medium, const ShellRay& ray, double from, double to) {
+  std::vector<double> out;
+  out.reserve(2 * medium.levels_m.size() + 3);
+  splitAt(medium.levels_m, ray, from, to, out);
   return out;
 }
 
@@ -69,15 +76,17 @@ std::optional<LitRay> enterShell(const Medium& medium, const ProbeRay& in) {
   const double R = medium.radius_m, top = medium.top_m;
   const double h = std::max(in.altitude_m, 0.0), r = R + h;
   const double mu = std::cos(in.viewZenith_rad), sine = std::sin(in.viewZenith_rad), impact = r * sine;
-  const double sunMu = std::cos(in.sunZenith_rad);
-  const double cosSun = std::clamp(mu * sunMu + sine * std::sin(in.sunZenith_rad) * std::cos(in.azimuth_rad), -1.0, 1.0);
-  LitRay out{{R, h, mu, impact}, 0, RayEnd::Space, sunMu, cosSun};
+  const double sunMu = std::cos(in.sunZenith_rad), sunSine = std::sin(in.sunZenith_rad);
+  const double cosSun = std::clamp(mu * sunMu + sine * sunSine * std::cos(in.azimuth_rad), -1.0, 1.0);
+  LitRay out{{R, h, mu, impact}, 0, RayEnd::Space, {0, 0, 1}, {sine, 0, mu}, {}, sunMu, cosSun};
+  out.toSun = {sunSine * std::cos(in.azimuth_rad), sunSine * std::sin(in.azimuth_rad), sunMu};
   double before = 0;  // distance up to the shell
   if (h >= top) {
     if (mu >= 0 || impact >= R + top) return std::nullopt;
     before = (*out.ray.distancesTo(top))[0];
     const double root = std::sqrt((R + top - impact) * (R + top + impact));
     out.ray = {R, top, -root / (R + top), impact};
+    out.up = (r * out.up + before * out.direction) / (R + top);
     out.sunMu = std::clamp((r * sunMu + before * cosSun) / (R + top), -1.0, 1.0);
   }
   if (const auto ground = distanceToGround(out.ray)) {

@@ -2,6 +2,7 @@
 // A straight ray through the shell in forms in which nothing cancels, and where rays meet the ground, the top and other altitudes.
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "welkin/physics/probe.h"
@@ -32,7 +33,9 @@ ShellRay rayFrom(const Medium& medium, double altitude_m, double mu);
 std::optional<double> distanceToGround(const ShellRay& ray);
 // Distance to the altitude of the shell's top, at least that of the start, ahead.
 double distanceToTop(const ShellRay& ray, double top_m);
-// Where the ray is split within (from, to): both ends, the crossings of the medium's levels and the lowest point, ascending.
+// Where the ray is split within (from, to): both ends, the crossings of altitudes (ascending) and the lowest point. Ascending.
+void splitAt(std::span<const double> altitudes_m, const ShellRay& ray, double from, double to, std::vector<double>& out);
+// The same at the medium's levels.
 std::vector<double> splits(const Medium& medium, const ShellRay& ray, double from, double to);
 
 enum class RayEnd { Ground, Space, Distance };  // what is at the end of a ray
@@ -42,8 +45,9 @@ struct LitRay {
   ShellRay ray;
   double length_m;
   RayEnd end;
-  double sunMu;   // zenith cosine of the sun at the ray's start
-  double cosSun;  // cosine between the ray and the direction towards the sun
+  glm::dvec3 up, direction, toSun;  // unit, in a frame of the observer's: vertical at the ray's start, the ray, towards the sun's centre
+  double sunMu;                     // zenith cosine of the sun at the ray's start
+  double cosSun;                    // cosine between the ray and the direction towards the sun
 
   double sunMuAt(double t) const;  // zenith cosine of the sun at a distance
 };
