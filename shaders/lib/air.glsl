@@ -40,6 +40,7 @@ struct AirRay {
   float length_m;   // of the ray's segment in the air; 0: none
   float anchor_m;
   float peakPhase;
+  vec3 light;       // irradiance of the sun over the tables' scale
 };
 
 AirRay airRay(sampler3D scatter, AirParams air, AirViewFrame view, Ray ray) {
@@ -60,20 +61,26 @@ AirRay airRay(sampler3D scatter, AirParams air, AirViewFrame view, Ray ray) {
   a.u = (first + texelCoord(viewCoord(view, ray.mu, ground), count) * count) / size.x;
   a.azimuth = texelCoord(clamp(0.5 + 0.5 * cosAzimuth, 0.0, 1.0), size.y);
   a.peakPhase = air.peakLayer == kNoLayer ? 0.0 : phaseValue(air.peakPhase, air.peakG, dot(ray.dir, sun));
+  a.light = sunIrradiance(air) * (1.0 / kSourceScale);
   return a;
 }
 
-AirView airTo(sampler3D scatter, sampler2D depth, AirRay a, float distance_m) {
+// 1 - exp(-depth) without cancellation: below 0.01 the series is exact to depth^4/24 = 4e-10, above it the difference has seven digits less two.
+vec3 airOpacity(vec3 depth) {
+  return mix(1.0 - exp(-depth), depth * (1.0 - depth * (0.5 - depth * (1.0 / 6.0))), lessThan(depth, vec3(0.01)));
+}
+
+AirView airTo(sampler3D scatter, sampler2D depthRate, AirRay a, float distance_m) {
   AirView v;
   float t = clamp(distance_m - a.anchor_m, 0.0, a.length_m);
   float s = a.length_m > 0.0 ? t / a.length_m : 0.0;
-  float slices = float(textureSize(depth, 0).y);
+  float slices = float(textureSize(depthRate, 0).y);
   float w = texelCoord(airSliceOf(a.slices, s), slices);
-  float scale = t * (1.0 / kRateLength_m);
-  v.transmittance = exp(-scale * textureLod(depth, vec2(a.u, w), 0.0).rgb);
+  vec3 depth = t * (1.0 / kRateLength_m) * textureLod(depthRate, vec2(a.u, w), 0.0).rgb;
+  v.transmittance = exp(-depth);
   vec3 smoothPart = textureLod(scatter, vec3(a.u, a.azimuth, 0.5 * w), 0.0).rgb;
   vec3 peakPart = textureLod(scatter, vec3(a.u, a.azimuth, 0.5 + 0.5 * w), 0.0).rgb;
-  v.inscatter = scale * (smoothPart + a.peakPhase * peakPart);
+  v.inscatter = airOpacity(depth) * (smoothPart + a.peakPhase * peakPart) * a.light;
   return v;
 }
 

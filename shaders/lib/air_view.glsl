@@ -1,5 +1,6 @@
-// The view tables: for one camera altitude and sun zenith angle, in-scatter and optical depth from the camera along every ray, per
-// kRateLength_m of path, so that both are linear near the camera and fit 16-bit floats.
+// The view tables: for one camera altitude and sun zenith angle, from the camera along every ray: optical depth per kRateLength_m of path,
+// and in-scatter over the opacity of the air up to there, which is the mean ratio of source and extinction. Both change little along a ray,
+// thin or thick; per unit of the sun's irradiance and times kSourceScale the second fits 16-bit floats from noon to the end of twilight.
 #include "lib/air_path.glsl"
 
 AirPath airViewPath(AirViewFrame view, float mu, float cosAzimuth) {
@@ -17,3 +18,5 @@ AirPath airViewPath(AirViewFrame view, float mu, float cosAzimuth) {
   path.cosine = clamp(cosCamera * view.cosSun + sinCamera * cosAzimuth * view.sinSun, -1.0, 1.0);
   return path;
 }
+
+vec3 airMeanSource(vec3 light, vec3 depth) { return kSourceScale * light / max(airOpacity(depth), vec3(1e-30)); }  // nothing over nothing: 0

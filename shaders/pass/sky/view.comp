@@ -9,8 +9,8 @@ layout(binding = WK_SKY_VIEW_SCATTER_UNIT) uniform sampler3D u_diffuse;
 layout(rgba16f, binding = 0) uniform writeonly image3D u_scatter;
 layout(rgba16f, binding = 1) uniform writeonly image2D u_depth;
 
-void store(uvec2 id, uint slice, vec3 light, vec3 peak, vec3 depth, float scale) {
-  vec3 sun = sunIrradiance(u_air.params), diffuse = vec3(0.0);
+void store(uvec2 id, uint slice, vec3 light, vec3 peak, vec3 depthRate) {
+  vec3 diffuse = vec3(0.0);
 #if VIEW_DIFFUSE
   bool ground = id.x < kViewGroundTexels;
   float u = ground ? float(id.x) / float(kViewGroundTexels - 1u) : float(id.x - kViewGroundTexels) / float(kViewSkyTexels - 1u);
@@ -20,9 +20,9 @@ void store(uvec2 id, uint slice, vec3 light, vec3 peak, vec3 depth, float scale)
                  texelCoord(float(slice) / float(kViewSlices - 1u), float(kDiffuseSlices)));
   diffuse = textureLod(u_diffuse, at, 0.0).rgb;
 #endif
-  imageStore(u_scatter, ivec3(id, slice), vec4((light * scale + diffuse) * sun, 0.0));
-  imageStore(u_scatter, ivec3(id, slice + kViewSlices), vec4(peak * scale * sun, 0.0));
-  if (id.y == 0u) imageStore(u_depth, ivec2(id.x, slice), vec4(depth * scale, 0.0));
+  imageStore(u_scatter, ivec3(id, slice), vec4(light + diffuse, 0.0));
+  imageStore(u_scatter, ivec3(id, slice + kViewSlices), vec4(peak, 0.0));
+  if (id.y == 0u) imageStore(u_depth, ivec2(id.x, slice), vec4(depthRate * kRateLength_m, 0.0));
 }
 
 void main() {
@@ -33,17 +33,18 @@ void main() {
   float end = ground ? distanceToGround(u_air.params, path.altitude_m, path.mu) : distanceToTop(u_air.params, path.altitude_m, path.mu);
   float spacing = ground ? u_air.view.groundSlices : u_air.view.skySlices;
   AirTerms terms = airTerms(path, airPhases(u_air, path.cosine, false));
-  // In the limit of no length, per metre: what is at the camera.
+  // In the limit of no length: what is at the camera.
   AirNode here = airNode(u_sunDepth, u_field, u_air, path, terms, 0.0);
-  store(id, 0u, here.light, here.peak, here.extinction, kRateLength_m);
+  vec3 scale = kSourceScale / max(here.extinction, vec3(1e-30));
+  store(id, 0u, here.light * scale, here.peak * scale, here.extinction);
   AirSum sum = airNothing();
   float t = 0.0;
   for (uint slice = 1u; slice < kViewSlices; ++slice) {
     float next = end * airSliceAt(spacing, float(slice) / float(kViewSlices - 1u));
     sum = airStretch(u_sunDepth, u_field, u_air, path, terms, sum, t, next);
     t = next;
-    // A ray of no length (the rim of the shell) keeps the rate at its start.
-    if (t > 0.0) store(id, slice, sum.light, sum.peak, sum.depth, kRateLength_m / t);
-    else store(id, slice, here.light, here.peak, here.extinction, kRateLength_m);
+    // A ray of no length (the rim of the shell) keeps what is at its start.
+    if (t > 0.0) store(id, slice, airMeanSource(sum.light, sum.depth), airMeanSource(sum.peak, sum.depth), sum.depth / t);
+    else store(id, slice, here.light * scale, here.peak * scale, here.extinction);
   }
 }

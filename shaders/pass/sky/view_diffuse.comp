@@ -1,4 +1,4 @@
-// In-scatter of diffuse light from the camera along every ray, on few rays and slices: it varies slowly in angle. view.comp adds it.
+// What diffuse light adds from the camera along every ray, on few rays and slices: it varies slowly in angle. view.comp adds it.
 #include "lib/air_view.glsl"
 #include "welkin/shared/bindings.glsl.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,15 +15,16 @@ void main() {
   float end = ground ? distanceToGround(u_air.params, path.altitude_m, path.mu) : distanceToTop(u_air.params, path.altitude_m, path.mu);
   float spacing = ground ? u_air.view.groundSlices : u_air.view.skySlices;
   AirTerms terms = airTerms(path, airPhases(u_air, path.cosine, false));
-  vec3 rate = airNode(u_sunDepth, u_field, u_air, path, terms, 0.0).light;
-  imageStore(u_out, ivec3(id, 0), vec4(rate * kRateLength_m, 0.0));
+  AirNode here = airNode(u_sunDepth, u_field, u_air, path, terms, 0.0);
+  vec3 source = kSourceScale * here.light / max(here.extinction, vec3(1e-30));
+  imageStore(u_out, ivec3(id, 0), vec4(source, 0.0));
   AirSum sum = airNothing();
   float t = 0.0;
   for (uint slice = 1u; slice < kDiffuseSlices; ++slice) {
     float next = end * airSliceAt(spacing, float(slice) / float(kDiffuseSlices - 1u));
     sum = airStretch(u_sunDepth, u_field, u_air, path, terms, sum, t, next);
     t = next;
-    if (t > 0.0) rate = sum.light / t;
-    imageStore(u_out, ivec3(id, slice), vec4(rate * kRateLength_m, 0.0));
+    if (t > 0.0) source = airMeanSource(sum.light, sum.depth);
+    imageStore(u_out, ivec3(id, slice), vec4(source, 0.0));
   }
 }

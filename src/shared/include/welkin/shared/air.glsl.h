@@ -219,9 +219,10 @@ WK_CONST uint kTransmittanceWidth = 256u, kTransmittanceHeight = 64u;
 WK_CONST uint kViewGroundTexels = 48u, kViewSkyTexels = 112u;             // view direction below and above the horizon
 WK_CONST uint kViewAzimuths = 24u, kViewSlices = 17u;
 WK_CONST uint kDiffuseGroundTexels = 16u, kDiffuseSkyTexels = 32u;        // the same for diffuse light alone
-WK_CONST uint kDiffuseAzimuths = 8u, kDiffuseSlices = 6u;
+WK_CONST uint kDiffuseAzimuths = 16u, kDiffuseSlices = 9u;
 
 WK_CONST float kNoDepth = F(1e-12);  // optical depth that stands for none where logarithms are stored
-WK_CONST float kRateLength_m = F(100000.0);  // tables store in-scatter and optical depth per this length: fits 16-bit floats
+WK_CONST float kRateLength_m = F(100000.0);  // of optical depth per length in tables: fits 16-bit floats
+WK_CONST float kSourceScale = F(4096.0);     // of sources over extinction, which are at most 1: 16-bit floats hold 1.5e-8 to 16
 
 WK_END
