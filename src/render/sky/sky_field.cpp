@@ -1,4 +1,4 @@
-#include "sky_field.h"
+#include "welkin/render/sky/sky_field.h"
 
 #include <algorithm>
 #include <array>
@@ -50,9 +50,38 @@ DirectionList directionList(const SkyModel& model, const AirBlock& air) {
       });
     }
     for (auto d = first; d < list.all.size(); ++d) list.all[d].z /= float(total);  // no light is made or lost by the quadrature
+    if (layer.forward > 0) list.all.emplace_back(1, 1, -layer.forward, float(i));   // what goes straight on is in the sun's own light
   }
   return list;
 }
+
+// g with sum 1 that makes g' gram g least: gram g = (1, 1, ...), scaled. Empty if there is nothing. Gaussian elimination with pivots: the matrix
+// is tiny, and nearly singular once steps say nothing new; the diagonal is raised by the rounding of the floats it is made of.
+std::vector<double> leastCombination(std::vector<double> gram, std::size_t n) {
+  std::vector<double> g(n, 1.0);
+  for (std::size_t i = 0; i < n; ++i) gram[i * n + i] *= 1 + 1e-12;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t r = k + 1; r < n; ++r)
+      if (std::abs(gram[r * n + k]) > std::abs(gram[pivot * n + k])) pivot = r;
+    for (std::size_t j = 0; j < n; ++j) std::swap(gram[k * n + j], gram[pivot * n + j]);
+    std::swap(g[k], g[pivot]);
+    if (gram[k * n + k] == 0) return {};
+    for (std::size_t r = 0; r < n; ++r) {
+      if (r == k) continue;
+      const double f = gram[r * n + k] / gram[k * n + k];
+      for (std::size_t j = k; j < n; ++j) gram[r * n + j] -= f * gram[k * n + j];
+      g[r] -= f * g[k];
+    }
+  }
+  double all = 0;
+  for (std::size_t k = 0; k < n; ++k) all += g[k] /= gram[k * n + k];
+  if (!(std::abs(all) > 0)) return {};
+  for (double& v : g) v /= all;
+  return g;
+}
+
+constexpr std::size_t kWindow = 8;  // steps that an extrapolation looks back: floats hold few more that are independent
 
 }  // namespace
 
@@ -102,8 +131,8 @@ Result<SkyField> SkyField::create(gpu::MemoryAccount& account, const SkyModel& m
     out = std::move(*made);
     return {};
   };
-  if (auto r = program(f.first_, "pass/sky/gather.comp", "1"); !r) return r.error();
-  if (auto r = program(f.next_, "pass/sky/gather.comp", "0"); !r) return r.error();
+  if (auto r = program(f.firstProgram_, "pass/sky/gather.comp", "1"); !r) return r.error();
+  if (auto r = program(f.nextProgram_, "pass/sky/gather.comp", "0"); !r) return r.error();
   if (auto r = program(f.project_, "pass/sky/project.comp", "1"); !r) return r.error();
   return f;
 }
@@ -116,8 +145,8 @@ bool SkyField::advance() {
 }
 
 void SkyField::gatherRows() {
-  const bool first = orders_.empty();
-  const gpu::Program& program = first ? first_ : next_;
+  const bool first = first_.empty();
+  const gpu::Program& program = first ? firstProgram_ : nextProgram_;
   const int directions = first ? directions_ : aboutVertical_;
   const int rows = std::min(4, int(model_.altitudeTexels) - row_);
   program.set("u_size", glm::ivec3(int(model_.sunTexels), int(model_.altitudeTexels), directions));
@@ -131,21 +160,31 @@ void SkyField::gatherRows() {
 }
 
 void SkyField::endOrder() {
-  const int directions = orders_.empty() ? directions_ : aboutVertical_;
+  const bool first = first_.empty();
+  const int directions = first ? directions_ : aboutVertical_;
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   moments_.bind(GL_SHADER_STORAGE_BUFFER, kMoments);
   project_.set("u_size", glm::ivec3(int(model_.sunTexels), int(model_.altitudeTexels), directions));
   project_.set("u_aboutVertical", aboutVertical_);
   project_.dispatch(unsigned(points() + 63) / 64);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-  Moments order((std::size_t(model_.moments()) + 2) * points());
-  moments_.download(0, std::as_writable_bytes(std::span(order)));
-  orders_.push_back(std::move(order));
+  Moments light((std::size_t(model_.moments()) + 2) * points());
+  moments_.download(0, std::as_writable_bytes(std::span(light)));
   row_ = 0;
-  const Moments all = sum();
-  done_ = rest_ <= model_.rest || int(orders_.size()) + 1 >= model_.maxOrders;
-  store(done_ ? all : orders_.back());
-  if (done_) radiance_ = {}, directionList_ = {};
+  ++orders_;
+  if (first) {
+    first_ = light, light_ = Moments(light.size(), glm::vec4(0));
+  } else {
+    for (std::size_t i = 0; i < light.size(); ++i) light[i] += first_[i];
+  }
+  for (std::size_t i = 0; i < light.size(); ++i) light_[i] = light[i] - light_[i];  // now the step
+  if (steps_.size() == kWindow) steps_.erase(steps_.begin());
+  steps_.push_back({std::move(light_), std::move(light)});
+  light_ = extrapolate();
+  done_ = rest_ <= model_.rest || orders_ + 1 >= model_.maxOrders;
+  store(light_);
+  if (done_) steps_.clear();
+  if (done_) radiance_ = {}, directionList_ = {}, first_.clear(), light_.clear();
 }
 
 void SkyField::store(const Moments& moments) {
@@ -158,80 +197,56 @@ void SkyField::store(const Moments& moments) {
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-// Reduced rank extrapolation (Sidi 1991): with s_k the sum of the first k orders D, the combination sum g_k s_k+1 with sum g_k = 1 whose
-// residual sum g_k D_k+1 is least, each wavelength on its own, relative to the light at each point.
-SkyField::Moments SkyField::sum() {
-  const std::size_t n = orders_.size(), count = orders_[0].size(), lit = points();
-  Moments total(count, glm::vec4(0));
-  for (const Moments& order : orders_)
-    for (std::size_t i = 0; i < count; ++i) total[i] += order[i];
-  Moments best = total;
+// Light is the fixed point of x -> first order + scattered x. Anderson's acceleration (1965) from steps x_k -> y_k: the combination
+// sum g_k y_k with sum g_k = 1 whose residual sum g_k (y_k - x_k) is least, each wavelength on its own. It is the next x; the error left in it is about the residual over 1 - (how much a step shrinks).
+SkyField::Moments SkyField::extrapolate() {
+  const std::size_t n = steps_.size(), count = first_.size(), lit = points();
+  const Moments& last = steps_.back().to;
+  Moments best = last;
   rest_ = 0;
   for (int c = 0; c < 3; ++c) {
     double brightest = 0;
-    for (std::size_t p = 0; p < lit; ++p) brightest = std::max(brightest, double(total[p][c]));
-    // Night, where light arrives only after many orders, says nothing about how they fall off.
+    for (std::size_t p = 0; p < lit; ++p) brightest = std::max(brightest, double(last[p][c]));
+    // Relative to the brightest altitude under the same sun. Night, where light arrives only after many orders, says nothing about how
+    // they fall off.
     std::vector<double> weight(lit, 0.0);
-    for (std::size_t p = 0; p < lit; ++p)
-      if (total[p][c] > 1e-7 * brightest) weight[p] = 1 / (double(total[p][c]) * total[p][c]);
+    for (std::size_t sun = 0; sun < model_.sunTexels; ++sun) {
+      double most = 0;
+      for (std::size_t p = sun; p < lit; p += model_.sunTexels) most = std::max(most, double(last[p][c]));
+      if (most > 1e-7 * brightest)
+        for (std::size_t p = sun; p < lit; p += model_.sunTexels) weight[p] = 1 / (most * most);
+    }
     std::vector<double> gram(n * n, 0.0);
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b <= a; ++b) {
         double s = 0;
-        for (std::size_t i = 0; i < count; ++i) s += weight[i % lit] * orders_[a][i][c] * orders_[b][i][c];
+        for (std::size_t i = 0; i < count; ++i) s += weight[i % lit] * steps_[a].change[i][c] * steps_[b].change[i][c];
         gram[a * n + b] = gram[b * n + a] = s;
       }
-    // gram g = 1, scaled to sum 1: Gaussian elimination with pivots, in double; the matrix is tiny and nearly singular once converged.
-    std::vector<double> g(n, 1.0);
-    const double trace = gram[0];
-    for (std::size_t i = 0; i < n; ++i) gram[i * n + i] += 1e-13 * trace;  // rounding of the floats it is made of
-    for (std::size_t k = 0; k < n; ++k) {
-      std::size_t pivot = k;
-      for (std::size_t r = k + 1; r < n; ++r)
-        if (std::abs(gram[r * n + k]) > std::abs(gram[pivot * n + k])) pivot = r;
-      for (std::size_t j = 0; j < n; ++j) std::swap(gram[k * n + j], gram[pivot * n + j]);
-      std::swap(g[k], g[pivot]);
-      for (std::size_t r = 0; r < n; ++r) {
-        if (r == k || gram[k * n + k] == 0) continue;
-        const double f = gram[r * n + k] / gram[k * n + k];
-        for (std::size_t j = k; j < n; ++j) gram[r * n + j] -= f * gram[k * n + j];
-        g[r] -= f * g[k];
-      }
-    }
-    double all = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      g[k] = gram[k * n + k] != 0 ? g[k] / gram[k * n + k] : 0;
-      all += g[k];
-    }
-    if (!(std::abs(all) > 0)) continue;  // no light
-    for (double& v : g) v /= all;
+    const double shrink = n > 1 && gram[(n - 2) * n + n - 2] > 0 ? std::sqrt(gram[n * n - 1] / gram[(n - 2) * n + n - 2]) : 0.0;
+    const std::vector<double> g = leastCombination(gram, n);
+    if (g.empty()) continue;  // no light
     double residual = 0, norm = 0;
     for (std::size_t p = 0; p < lit; ++p) {
-      double r = 0, tail = 0;
-      for (std::size_t k = 0; k < n; ++k) r += g[k] * orders_[k][p][c];
+      double r = 0, value = 0;
+      for (std::size_t k = 0; k < n; ++k) r += g[k] * steps_[k].change[p][c], value += g[k] * steps_[k].to[p][c];
       residual += weight[p] * r * r;
       norm += weight[p] > 0;
-      // sum g_k s_k+1 = s_n less what later orders weigh less
-      for (std::size_t k = 0; k < n; ++k) {
-        double later = 0;
-        for (std::size_t j = k; j < n; ++j) later += g[j];
-        tail += later * orders_[k][p][c];
-      }
-      if (!(tail >= total[p][c])) continue;  // every order adds light: an extrapolation that takes some away is none
+      if (!(value >= first_[p][c])) continue;  // every order adds light: what leaves less than the first is none
       for (std::size_t i = p; i < count; i += lit) {
-        double value = 0, later = 0;
-        for (std::size_t k = n; k-- > 0;) later += g[k], value += later * orders_[k][i][c];
+        value = 0;
+        for (std::size_t k = 0; k < n; ++k) value += g[k] * steps_[k].to[i][c];
         best[i][c] = float(value);
       }
     }
-    rest_ = std::max(rest_, norm > 0 ? std::sqrt(residual / norm) : 0.0);
+    if (norm > 0) rest_ = std::max(rest_, std::sqrt(residual / norm) / std::max(1 - shrink, 0.01));
   }
   return best;
 }
 
 double SkyField::progress() const {
   if (done_) return 1;
-  return (double(orders_.size()) + double(row_) / model_.altitudeTexels) / std::max(model_.maxOrders - 1, 1);
+  return (orders_ + double(row_) / model_.altitudeTexels) / std::max(model_.maxOrders - 1, 1);
 }
 
 void SkyField::bind() const {

@@ -30,14 +30,14 @@ Result<SkyModel> skyModel(const Scene& scene) {
     m.above = 8, m.below = 5, m.azimuths = 8;
     m.peakAngles = 16, m.peakAzimuths = 8;
     m.pieces = 12;
-    m.maxOrders = 8, m.rest = 1e-3;
+    m.maxOrders = 40, m.rest = 1e-3;
   } else if (m.name == "tables-2d") {
     m.degree = m.zonal = 2;
     m.sunTexels = 32, m.altitudeTexels = 16;
     m.above = 4, m.below = 3, m.azimuths = 4;
     m.peakAngles = 6, m.peakAzimuths = 4;
     m.pieces = 8;
-    m.maxOrders = 3, m.rest = 1e-2;
+    m.maxOrders = 40, m.rest = 1e-2;
   } else if (m.name == "march") {
     m.maxOrders = 1;
     m.sunTexels = m.altitudeTexels = 2;

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "sky_field.h"
+#include "welkin/render/sky/sky_field.h"
 #include "welkin/physics/air.h"
 #include "welkin/shared/bindings.glsl.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// The field of diffuse light, order after order (lib/air_field.glsl): what every point sees of one order (gather), its moments (project),
-// which are the source of the next order. The orders' sum is extrapolated.
+// The field of diffuse light (lib/air_field.glsl): what every point sees (gather) and its moments (project), which are the source of light
+// scattered once more. Each turn adds an order; the limit is extrapolated.
 #include <functional>
 #include <vector>
 
@@ -23,8 +23,8 @@ class SkyField {
 
   void bind() const;  // field and irradiance to their units
   const gpu::Texture& irradiance() const { return irradiance_; }
-  int orders() const { return int(orders_.size()); }
-  double rest() const { return rest_; }  // estimate of what the orders left out are of the light, greatest of the three wavelengths
+  int orders() const { return orders_; }  // gathered so far
+  double rest() const { return rest_; }   // estimate of what is missing, relative to the light, greatest of the three wavelengths
   std::size_t bytes() const;
 
  private:
@@ -33,16 +33,19 @@ class SkyField {
   void gatherRows();
   void endOrder();
   void store(const Moments& moments);
-  Moments sum();  // of all orders, extrapolated; sets rest_
+  Moments extrapolate();  // of the steps; sets rest_
 
   SkyModel model_;
   int aboutVertical_ = 0, directions_ = 0, row_ = 0;
   bool done_ = false;
   double rest_ = 1;
-  std::vector<Moments> orders_;
+  int orders_ = 0;
+  struct Step { Moments change, to; };
+  std::vector<Step> steps_;
+  Moments first_, light_;  // first order; light that the table holds
   gpu::Buffer directionList_, radiance_, moments_;
   gpu::Texture field_, irradiance_;
-  gpu::Program first_, next_, project_, store_;
+  gpu::Program firstProgram_, nextProgram_, project_, store_;
 };
 
 }  // namespace welkin
