@@ -66,7 +66,8 @@ void addQualityOptions(CLI::App& command, CommonOptions& o) {
       [&o](std::int64_t v) { o.seed = std::uint32_t(v); });
   addParsed<Exposure>(command, "--exposure", "stops over the base exposure, or auto: metered", parseExposure,
                       [&o](Exposure v) { o.exposure = v; });
-  addParsed<ToneCurve>(command, "--tone-curve", "aces, reinhard, lottes or uchimura", parseToneCurve, [&o](ToneCurve v) { o.toneCurve = v; });
+  addParsed<ToneCurve>(command, "--tone-curve", "aces, reinhard, lottes or uchimura", parseToneCurve,
+                       [&o](ToneCurve v) { o.toneCurve = v; });
   addGpuOption(command, o);
 }
 

@@ -123,8 +123,10 @@ std::string sceneToJson(const Scene& scene, const fs::path& baseFolder, int inde
   out["quality"] = {{"budget", bytesExact(budget_bytes)}, {"depth", depth}, {"step", step}, {"detail", detail}, {"seed", seed}};
   const auto& [exposure_ev, toneCurve, autoExposure] = output;
   const auto& [compensation_ev, adaptToBright_s, adaptToDark_s, lowPercentile, highPercentile, min_ev, max_ev] = autoExposure;
-  if (exposure_ev) out["output"]["exposure_ev"] = *exposure_ev;
-  else out["output"]["exposure_ev"] = "auto";
+  if (exposure_ev)
+    out["output"]["exposure_ev"] = *exposure_ev;
+  else
+    out["output"]["exposure_ev"] = "auto";
   out["output"]["tone_curve"] = kToneCurveNames[std::size_t(toneCurve)];
   out["output"]["auto_exposure"] = {{"compensation_ev", compensation_ev},
                                     {"adapt_to_bright_s", adaptToBright_s},

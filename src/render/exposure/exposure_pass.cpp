@@ -33,12 +33,11 @@ Result<ExposurePass> ExposurePass::create(gpu::MemoryAccount& account, const Sce
   pass.settings_ = scene.output.autoExposure;
   const double unit = unitOfLight(scene);
   pass.unitInverse_ = static_cast<float>(1 / unit);
-  pass.offset_ev_ = static_cast<float>(std::log2(middleGrey(scene.output.toneCurve) / (shared::kBaseExposure * unit)) +
-                                       pass.settings_.compensation_ev);
+  pass.offset_ev_ =
+      static_cast<float>(std::log2(middleGrey(scene.output.toneCurve) / (shared::kBaseExposure * unit)) + pass.settings_.compensation_ev);
   const gpu::Defines curve{{"TONE_CURVE", toneCurveFunction(scene.output.toneCurve)}};
-  for (const auto& [program, path, defines] : {std::tuple{&pass.histogram_, "histogram", gpu::Defines{}},
-                                               {&pass.adapt_, "adapt", gpu::Defines{}},
-                                               {&pass.show_, "show", curve}}) {
+  for (const auto& [program, path, defines] :
+       {std::tuple{&pass.histogram_, "histogram", gpu::Defines{}}, {&pass.adapt_, "adapt", gpu::Defines{}}, {&pass.show_, "show", curve}}) {
     auto made = gpu::Program::compute(std::string("pass/exposure/") + path + ".comp", defines);
     if (!made) return made.error();
     *program = std::move(*made);

@@ -89,7 +89,8 @@ TEST_F(Exposure, HistogramIsTheCpus) {
       const auto block = blockOf(pass);
       EXPECT_EQ(block.metered, lit) << "every pixel but the black ones, in any order of the threads";
       // A sum in float of 256 terms up to 2e5: 256 halves of a unit in the last place relative to at most 28 stops.
-      EXPECT_NEAR(block.target_ev, targetOnCpu(pixels, scene, irradiance == 1.3 ? 1.0 : std::exp2(std::floor(std::log2(irradiance)))), 1e-3);
+      EXPECT_NEAR(block.target_ev, targetOnCpu(pixels, scene, irradiance == 1.3 ? 1.0 : std::exp2(std::floor(std::log2(irradiance)))),
+                  1e-3);
       EXPECT_NEAR(block.ev, block.target_ev, 0.5 / shared::kEvSteps + 1e-6) << "the first picture is adapted to fully";
       for (const shared::uint n : block.bins) EXPECT_EQ(n, 0u) << "emptied for the next picture";
     }
@@ -203,7 +204,8 @@ TEST_F(Exposure, MeteredPictureComesBackEqualFromItsNumber) {
 
 TEST_F(Exposure, FlightAdaptsAndIsTheSameTwice) {
   const auto fly = [&](std::uint32_t jitter, std::vector<double>& evs) {
-    const auto renderer = makeRenderer(*context, meteredEarth(), {.width = 48, .height = 27, .bricksPerFrame = 64, .workerJitterSeed = jitter});
+    const auto renderer =
+        makeRenderer(*context, meteredEarth(), {.width = 48, .height = 27, .bricksPerFrame = 64, .workerJitterSeed = jitter});
     std::vector<std::uint8_t> pictures;
     for (int i = 0; i < 12; ++i) {
       evs.push_back(renderer->frame(viewAt(45, 0, 9000, 0, i < 6 ? -30 : 40), FrameMode::Reprojected, 1.0 / 30).exposure_ev);

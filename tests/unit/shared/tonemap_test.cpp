@@ -12,15 +12,13 @@ namespace {
 struct Curve {
   std::string name;
   vec3 (*value)(vec3);
-  float white;      // exposed grey that is shown as white (0.998 or more: within half a step of 8 bits)
-  float slope;      // of display over exposed grey at 0.18, from the published formula differentiated by hand or in double
+  float white;  // exposed grey that is shown as white (0.998 or more: within half a step of 8 bits)
+  float slope;  // of display over exposed grey at 0.18, from the published formula differentiated by hand or in double
 };
 std::ostream& operator<<(std::ostream& out, const Curve& c) { return out << c.name; }
 
 // Of a grey, which Hill's two matrices leave as it is.
-double acesInDouble(double x) {
-  return (x * (x + 0.0245786) - 0.000090537) / (x * (0.983729 * x + 0.4329510) + 0.238081);
-}
+double acesInDouble(double x) { return (x * (x + 0.0245786) - 0.000090537) / (x * (0.983729 * x + 0.4329510) + 0.238081); }
 
 double lottesInDouble(double x) {
   const double a = 1.6, d = 0.977, most = 8, in = 0.18, shown = 0.267;

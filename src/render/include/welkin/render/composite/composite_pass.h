@@ -52,7 +52,7 @@ class CompositePass {
   int width_ = 0, height_ = 0;
   glm::vec3 albedo_{}, toSun_{}, sunIrradiance_{};
   float sunRadius_rad_ = 0;
-  bool shows_ = true;  // tone-maps too
+  bool shows_ = true;     // tone-maps too
   GLuint albedoMap_ = 0;  // with smaller copies, which gpu::Texture has not
   std::uint64_t albedoBytes_ = 0;
   gpu::MemoryAccount* account_ = nullptr;

@@ -25,8 +25,8 @@ class ExposurePass {
   // Tone-maps `radiance` into `display` (RGBA8, of the same size) at the metered exposure, or at ev.
   void show(const gpu::Texture& radiance, const gpu::Texture& display, std::optional<double> ev = {}) const;
 
-  bool metered() const { return metered_; }  // has any picture been metered?
-  double reached_ev() const;                 // reads back: waits for the GPU
+  bool metered() const { return metered_; }            // has any picture been metered?
+  double reached_ev() const;                           // reads back: waits for the GPU
   const gpu::Buffer& block() const { return block_; }  // ExposureBlock; its bins are empty between pictures
 
  private:
