@@ -32,6 +32,8 @@ inline gpu::Defines airDefines(int layers, int peak) {
   return defines;
 }
 
+inline constexpr const char* kToneCurveFunctions[] = {"acesFilmic", "reinhardExtended", "lottes", "uchimura"};
+
 inline std::vector<ShaderVariant> shaderTable() {
   std::vector<ShaderVariant> table{{"pass/maps/build.comp", {}}, {"pass/reproject/reproject.comp", {}}};
   for (const char* textures : {"1", "2"}) {
@@ -59,9 +61,17 @@ inline std::vector<ShaderVariant> shaderTable() {
   }
   for (int bits = 0; bits < 16; ++bits) {
     const auto on = [&](int bit) { return std::string(bits >> bit & 1 ? "1" : "0"); };
-    table.push_back(
-        {"pass/composite/composite.comp", {{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_ALBEDO_MAP", on(3)}}});
+    const gpu::Defines scene{{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_ALBEDO_MAP", on(3)}};
+    const auto composite = [&](gpu::Defines more) {
+      more.insert(more.begin(), scene.begin(), scene.end());
+      table.push_back({"pass/composite/composite.comp", std::move(more)});
+    };
+    composite({{"OPT_DISPLAY", "0"}});
+    for (const char* curve : kToneCurveFunctions) composite({{"OPT_DISPLAY", "1"}, {"TONE_CURVE", curve}});
   }
+  table.push_back({"pass/exposure/histogram.comp", {}});
+  table.push_back({"pass/exposure/adapt.comp", {}});
+  for (const char* curve : kToneCurveFunctions) table.push_back({"pass/exposure/show.comp", {{"TONE_CURVE", curve}}});
   return table;
 }
 

@@ -9,6 +9,7 @@
 #define WK_BRICK_RESULTS_BINDING 3
 #define WK_COUNTERS_BINDING 4
 #define WK_MAP_JOBS_BINDING 5
+#define WK_EXPOSURE_BINDING 5      // after the maps, which bind their jobs anew each time: GL promises eight, 0 to 7
 #define WK_PIXELS_BINDING 6
 #define WK_AIR_PARAMS_BINDING 7
 // uniform buffers
