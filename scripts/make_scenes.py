@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Writes the Earth scene, the four benchmark poses, the scene of the flight, and one scene per reason to leave passes out.
+"""Writes the Earth scene, the four benchmark poses, the scene of the flight, one scene per reason to leave passes out, and those of
+other planets (planets.py).
 
-All of them share one planet, one air and one sun, so they are written by one program. Run it after a change here;
+All Earths with clouds share one planet, one air and one sun, so they are written by one program. Run it after a change here;
 `--check` says whether the files in the repository are what it writes.
 """
 
 import json
 
+import planets
 from globe import RADIUS_M, subsolar_deg, write_or_check
 
 # The site of the pictures and the flight: broken cloud at the edge of a South Atlantic front (mean cover 0.28 within 20 km), looking along the front
@@ -101,6 +103,7 @@ def files():
     out["benchmarks/left-out/nothing.json"] = everything
     for section in ["clouds", "atmosphere", "sun"]:
         out[f"benchmarks/left-out/no-{section}.json"] = {**without(everything, section), "name": f"no {section}"}
+    out.update(planets.files(ATMOSPHERE))
     return {name: json.dumps(content, indent=2) + "\n" for name, content in out.items()}
 
 

@@ -280,6 +280,7 @@ Result<void> bench(const BenchOptions& options) {
   auto start = loadStart(options.scene, options.view);
   if (!start) return start.error();
   apply(options.common, start->scene);
+  apply(options.common, start->view);
   if (!options.common.json.empty()) {
     if (auto writable = checkWritableFile(options.common.json); !writable) return writable;
   }

@@ -64,6 +64,10 @@ void addQualityOptions(CLI::App& command, CommonOptions& o) {
   addParsed<std::int64_t>(
       command, "--seed", "seed of the procedural weather", [](const std::string& t) { return parseWhole(t, 0, 4294967295); },
       [&o](std::int64_t v) { o.seed = std::uint32_t(v); });
+  addParsed<Exposure>(command, "--exposure", "stops over the base exposure, or auto: metered", parseExposure,
+                      [&o](Exposure v) { o.exposure = v; });
+  addParsed<ToneCurve>(command, "--tone-curve", "aces, reinhard, lottes or uchimura", parseToneCurve,
+                       [&o](ToneCurve v) { o.toneCurve = v; });
   addGpuOption(command, o);
 }
 

@@ -18,6 +18,7 @@ Result<void> runPlan(const PlanOptions& o) {
   auto start = loadStart(o.input, o.view);
   if (!start) return start.error();
   apply(o.common, start->scene);
+  apply(o.common, start->view);
   const FramePlan plan = planFrame(start->scene);
   if (!o.common.json.empty()) {
     nlohmann::ordered_json out{{"scene", o.input.generic_string()}, {"passes", plan.passes}, {"left_out", nlohmann::ordered_json::array()}};

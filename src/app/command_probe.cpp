@@ -3,10 +3,12 @@
 #include "welkin/core/files.h"
 #include "welkin/core/log.h"
 #include "welkin/core/progress.h"
+#include "welkin/gpu/context.h"
 #include "welkin/physics/scene_io.h"
 #include "welkin/reference/parallel.h"
 #include "welkin/reference/radiance.h"
 #include "welkin/reference/random.h"
+#include "welkin/render/sky/sky_probe.h"
 
 namespace welkin::app {
 namespace {
@@ -46,6 +48,21 @@ Result<Probed> probeReference(const Scene& scene, const std::vector<ProbeRay>& r
   return out;
 }
 
+Result<Probed> probeTables(Scene scene, const std::vector<ProbeRay>& rays, const ProbeOptions& o) {
+  if (o.paths.maxOrders > 1) return Error{"methods other than reference know --orders 1 and all orders"};
+  if (!scene.atmosphere) return Error{fmt::format("{}: the scene has no atmosphere", o.scene.string())};
+  auto context = gpu::Context::createHeadless(o.common.gpu);
+  if (!context) return context.error();
+  scene.atmosphere->model = o.method;
+  scene.sun = scene.sun.value_or(Sun{});
+  gpu::MemoryAccount account(scene.quality.budget_bytes);
+  auto tables = SkyTables::create(account, scene, o.paths.maxOrders == 1 ? SkyOrders::First : SkyOrders::All);
+  if (!tables) return Error{fmt::format("{}: {}", o.scene.string(), tables.error().message)};
+  auto results = probeSky(account, *tables, scene, rays);
+  if (!results) return results.error();
+  return Probed{std::move(*results), false};
+}
+
 Result<void> runProbe(const ProbeOptions& o) {
   beginCommand(o.common);
   if (!o.out.empty()) {
@@ -56,8 +73,7 @@ Result<void> runProbe(const ProbeOptions& o) {
   if (scene->clouds) log::warn("the scene's clouds are left out: probe is of the clear air");
   auto table = readProbeTable(o.rays);
   if (!table) return table.error();
-  if (o.method != "reference") return Error{fmt::format("method {} is not there yet", o.method)};
-  auto probed = probeReference(*scene, table->rays, o);
+  auto probed = o.method == "reference" ? probeReference(*scene, table->rays, o) : probeTables(*scene, table->rays, o);
   if (!probed) return probed.error();
   const std::string text = probeResultText(*table, probed->results, probed->withErrors);
   if (!o.out.empty()) return writeFile(o.out, text);

@@ -30,6 +30,7 @@ Result<void> runRender(const RenderOptions& o) {
   auto start = loadStart(o.input, o.view);
   if (!start) return start.error();
   apply(o.common, start->scene);
+  apply(o.common, start->view);
   const Size size = o.common.size.value_or(start->size);
   if (auto writable = checkWritableFile(o.output); !writable) return writable;
   if (!o.common.json.empty()) {
@@ -53,7 +54,9 @@ Result<void> runRender(const RenderOptions& o) {
   progress.finish();
 
   const auto data = dataChecksums(start->scene);
-  if (auto written = writeRendered(o, *stage->renderer, stateOf(*stage->renderer, start->view, size, start->time_s, true, data)); !written)
+  if (auto written =
+          writeRendered(o, *stage->renderer, stateOf(*stage->renderer, start->view, stats->exposure_ev, size, start->time_s, true, data));
+      !written)
     return written;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!o.common.json.empty()) {

@@ -43,7 +43,7 @@ void describeDevice(const gpu::Context& context, measure::ReportContext& out) {
   out.software = context.device().software;
 }
 
-PictureState stateOf(const Renderer& renderer, const View& view, Size size, double time_s, bool converged,
+PictureState stateOf(const Renderer& renderer, const View& view, double exposure_ev, Size size, double time_s, bool converged,
                      const std::map<std::filesystem::path, std::string>& data) {
   PictureState state;
   state.scene = renderer.scene();
@@ -58,7 +58,8 @@ PictureState stateOf(const Renderer& renderer, const View& view, Size size, doub
   state.height = size.height;
   state.time_s = time_s;
   state.converged = converged;
-  state.exposure_ev = view.exposure_ev.value_or(state.scene.exposure_ev);
+  state.exposure_ev = exposure_ev;
+  if (!state.scene.output.exposure_ev) state.view.exposure_ev = exposure_ev;
   state.build = buildText();
   state.data = data;
   return state;

@@ -56,6 +56,8 @@ class Replay {
  private:
   const PathFrame& pose(int frame) const { return plan_.path.frames[std::size_t(frame)]; }
 
+  double sinceLast_s(int frame) const { return frame > plan_.first ? pose(frame).time_s - pose(frame - 1).time_s : plan_.path.timeStep_s; }
+
   void describe() {
     report_.context = describeRun(plan_.scene, plan_.size);
     describeDevice(*stage_.context, report_.context);
@@ -85,7 +87,7 @@ class Replay {
       });
     }
     for (int i = 0; i < warmUp && !stopRequested(); ++i) {
-      stage_.renderer->frame(pose(plan_.first).view);
+      stage_.renderer->frame(pose(plan_.first).view, FrameMode::Reprojected, plan_.path.timeStep_s);
       drawn(i + 1, "warm-up");
     }
     for (int frame = plan_.first; frame < plan_.end && !stopRequested(); ++frame) {
@@ -109,7 +111,7 @@ class Replay {
     row.pathFrame = frame;
     row.time_s = pose(frame).time_s;
     row.altitude_m = altitude_m(view, plan_.scene.planet);
-    row.stats = stage_.renderer->frame(view);
+    row.stats = stage_.renderer->frame(view, FrameMode::Reprojected, sinceLast_s(frame));
     const bool quality = std::find(options_.qualityFrames.begin(), options_.qualityFrames.end(), frame) != options_.qualityFrames.end();
     const bool wanted = pictureWanted(plan_, frame);
     if (wanted || quality || video) {
@@ -119,9 +121,9 @@ class Replay {
       }
       if (wanted) {
         row.picture = pictureName(frame);
-        if (auto written = writePicture(frame, image); !written) return written;
+        if (auto written = writePicture(frame, image, row.stats.exposure_ev); !written) return written;
       }
-      if (quality) qualityImages_.emplace_back(frame, std::move(image));
+      if (quality) qualityImages_.push_back({frame, row.stats.exposure_ev, std::move(image)});
     }
     if (pop) {
       stage_.renderer->preview(view);
@@ -133,8 +135,8 @@ class Replay {
     return {};
   }
 
-  Result<void> writePicture(int frame, const Image8& image) {
-    const auto state = stateOf(*stage_.renderer, pose(frame).view, plan_.size, pose(frame).time_s, false, data_);
+  Result<void> writePicture(int frame, const Image8& image, double exposure_ev) {
+    const auto state = stateOf(*stage_.renderer, pose(frame).view, exposure_ev, plan_.size, pose(frame).time_s, false, data_);
     pictures_.push_back({image, fmt::format("frame {}   {}", frame, heightText(altitude_m(pose(frame).view, plan_.scene.planet)))});
     return writePng(plan_.out / pictureName(frame), image, textsFromState(state, plan_.out));
   }
@@ -157,8 +159,10 @@ class Replay {
     if (!reference) return reference.error();
     Progress progress("quality", options_.common.quiet);
     for (std::size_t i = 0; i < qualityImages_.size(); ++i) {
-      const auto& [frame, image] = qualityImages_[i];
-      const auto drawn = drawConverged(**reference, pose(frame).view, [&](double f) {
+      const auto& [frame, exposure_ev, image] = qualityImages_[i];
+      View view = pose(frame).view;
+      view.exposure_ev = exposure_ev;  // as the flight had adapted
+      const auto drawn = drawConverged(**reference, view, [&, frame = frame](double f) {
         progress.update((double(i) + f) / double(qualityImages_.size()), fmt::format("frame {}", frame));
         return !stopRequested();
       });
@@ -205,7 +209,12 @@ class Replay {
   Stage stage_;
   measure::TimingReport report_;
   std::vector<SheetPicture> pictures_;
-  std::vector<std::pair<int, Image8>> qualityImages_;
+  struct QualityImage {
+    int frame;
+    double exposure_ev;
+    Image8 image;
+  };
+  std::vector<QualityImage> qualityImages_;
 };
 
 }  // namespace

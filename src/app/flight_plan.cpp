@@ -26,6 +26,7 @@ Result<FlightPlan> planFlight(const FlightOptions& options) {
   plan.scene = std::move(*scene);
   if (auto above = checkPath(plan.path, plan.scene.planet); !above) return above.error();
   apply(options.common, plan.scene);
+  for (PathFrame& frame : plan.path.frames) apply(options.common, frame.view);
   plan.size = options.common.size.value_or(Size{plan.path.width, plan.path.height});
 
   const int frames = int(plan.path.frames.size());

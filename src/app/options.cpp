@@ -33,6 +33,20 @@ Result<Size> parseSize(const std::string& text) {
   return Error{fmt::format("expected WIDTHxHEIGHT, each 1 to {}, got {}", kMaxPictureEdge, oneLine(text, 60))};
 }
 
+Result<Exposure> parseExposure(const std::string& text) {
+  if (text == "auto") return Exposure{};
+  double ev = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), ev);
+  if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size() && ev >= -40 && ev <= 40) return Exposure{ev};
+  return Error{fmt::format("expected auto or stops from -40 to 40, got {}", oneLine(text, 60))};
+}
+
+Result<ToneCurve> parseToneCurve(const std::string& text) {
+  const auto found = std::find(kToneCurveNames.begin(), kToneCurveNames.end(), text);
+  if (found != kToneCurveNames.end()) return ToneCurve(found - kToneCurveNames.begin());
+  return Error{fmt::format("expected one of: {}, got {}", fmt::join(kToneCurveNames, ", "), oneLine(text, 60))};
+}
+
 Result<FrameRange> parseRange(const std::string& text) {
   const Error wrong{fmt::format("expected FIRST:END, END not included, either may be empty, got {}", oneLine(text, 60))};
   const auto colon = text.find(':');
@@ -71,6 +85,14 @@ void apply(const CommonOptions& options, Scene& scene) {
   q.step = options.step.value_or(q.step);
   q.detail = options.detail.value_or(q.detail);
   q.seed = options.seed.value_or(q.seed);
+  scene.output.toneCurve = options.toneCurve.value_or(scene.output.toneCurve);
+  if (!options.exposure) return;
+  scene.output.exposure_ev = options.exposure->ev;
+  for (auto& [name, view] : scene.views) apply(options, view);
+}
+
+void apply(const CommonOptions& options, View& view) {
+  if (options.exposure) view.exposure_ev.reset();
 }
 
 Result<Start> loadStart(const std::filesystem::path& file, const std::string& viewName) {

@@ -88,6 +88,7 @@ Json frameJson(const FrameRow& row) {
   out["bytes"] = s.bytesUsed;
   out["cpu_bytes"] = s.residency.cpuBytes;
   out["sample_detail"] = s.sampleDetail;
+  out["exposure_ev"] = s.exposure_ev;
   if (!row.picture.empty()) out["picture"] = row.picture;
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -191,6 +192,39 @@ struct Reader {
     return out;
   }
 
+  AutoExposure autoExposure(const JsonPlace& p) const {
+    p.object({"compensation_ev", "adapt_to_bright_s", "adapt_to_dark_s", "low_percentile", "high_percentile", "min_ev", "max_ev"});
+    AutoExposure out;
+    out.compensation_ev = p.numberOr("compensation_ev", out.compensation_ev, {-20, 20});
+    out.adaptToBright_s = p.numberOr("adapt_to_bright_s", out.adaptToBright_s, {0, 1e6});
+    out.adaptToDark_s = p.numberOr("adapt_to_dark_s", out.adaptToDark_s, {0, 1e6});
+    out.lowPercentile = p.numberOr("low_percentile", out.lowPercentile, {0, 100});
+    out.highPercentile = p.numberOr("high_percentile", std::max(out.highPercentile, out.lowPercentile), {out.lowPercentile, 100});
+    out.min_ev = p.numberOr("min_ev", out.min_ev, detail::kExposureRange_ev);
+    out.max_ev = p.numberOr("max_ev", std::max(out.max_ev, out.min_ev), {out.min_ev, detail::kExposureRange_ev.high});
+    return out;
+  }
+
+  Output output(const JsonPlace& p) const {
+    p.object({"exposure_ev", "tone_curve", "auto_exposure"});
+    Output out;
+    if (p.has("exposure_ev")) {
+      const JsonPlace exposure = p.at("exposure_ev");
+      if (exposure.value().is_string()) {
+        exposure.choice({"auto"});
+        out.exposure_ev.reset();
+      } else {
+        out.exposure_ev = exposure.number(detail::kExposureRange_ev);
+      }
+    }
+    if (p.has("tone_curve")) {
+      const auto name = p.at("tone_curve").choice({kToneCurveNames[0], kToneCurveNames[1], kToneCurveNames[2], kToneCurveNames[3]});
+      out.toneCurve = ToneCurve(std::find(kToneCurveNames.begin(), kToneCurveNames.end(), name) - kToneCurveNames.begin());
+    }
+    if (p.has("auto_exposure")) out.autoExposure = autoExposure(p.at("auto_exposure"));
+    return out;
+  }
+
   Scene scene(const JsonPlace& p) const {
     p.object({"$schema", "name", "planet", "atmosphere", "sun", "clouds", "views", "quality", "output"});
     Scene out;
@@ -200,10 +234,7 @@ struct Reader {
     if (p.has("sun")) out.sun = sun(p.at("sun"));
     if (p.has("clouds")) out.clouds = clouds(p.at("clouds"));
     if (p.has("quality")) out.quality = quality(p.at("quality"));
-    if (p.has("output")) {
-      p.at("output").object({"exposure_ev"});
-      out.exposure_ev = p.at("output").numberOr("exposure_ev", out.exposure_ev, detail::kExposureRange_ev);
-    }
+    if (p.has("output")) out.output = output(p.at("output"));
     if (p.has("views")) {
       for (const auto& name : p.at("views").keys()) {
         if (name.empty() || name.size() > 200) p.at("views").failPlain("expected names of 1 to 200 bytes");

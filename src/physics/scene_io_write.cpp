@@ -95,7 +95,7 @@ struct Writer {
 }  // namespace
 
 std::string sceneToJson(const Scene& scene, const fs::path& baseFolder, int indent) {
-  [[maybe_unused]] const auto& [sceneName, file, planet, atmosphere, sun, clouds, quality, exposure_ev, views] =
+  [[maybe_unused]] const auto& [sceneName, file, planet, atmosphere, sun, clouds, quality, output, views] =
       scene;  // as above: none forgotten
   [[maybe_unused]] const auto& [radius_m, albedo, albedoMap] = scene.planet;
   const Writer writer{baseFolder};
@@ -121,7 +121,20 @@ std::string sceneToJson(const Scene& scene, const fs::path& baseFolder, int inde
   for (const auto& [name, view] : scene.views) out["views"][name] = detail::writeView(view);
   const auto& [budget_bytes, depth, step, detail, seed] = scene.quality;
   out["quality"] = {{"budget", bytesExact(budget_bytes)}, {"depth", depth}, {"step", step}, {"detail", detail}, {"seed", seed}};
-  out["output"]["exposure_ev"] = scene.exposure_ev;
+  const auto& [exposure_ev, toneCurve, autoExposure] = output;
+  const auto& [compensation_ev, adaptToBright_s, adaptToDark_s, lowPercentile, highPercentile, min_ev, max_ev] = autoExposure;
+  if (exposure_ev)
+    out["output"]["exposure_ev"] = *exposure_ev;
+  else
+    out["output"]["exposure_ev"] = "auto";
+  out["output"]["tone_curve"] = kToneCurveNames[std::size_t(toneCurve)];
+  out["output"]["auto_exposure"] = {{"compensation_ev", compensation_ev},
+                                    {"adapt_to_bright_s", adaptToBright_s},
+                                    {"adapt_to_dark_s", adaptToDark_s},
+                                    {"low_percentile", lowPercentile},
+                                    {"high_percentile", highPercentile},
+                                    {"min_ev", min_ev},
+                                    {"max_ev", max_ev}};
   return out.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 

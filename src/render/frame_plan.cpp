@@ -15,6 +15,9 @@ FramePlan planFrame(const Scene& scene) {
   }
   if (!plan.sun) plan.leftOut.push_back({"sun disc, shadow rays", "no sun in the scene"});
   if (!plan.clouds) plan.leftOut.push_back({"octree, worker, brick pool, bricks, light, octree maps, march, reprojection", "no clouds in the scene"});
+  plan.metered = plan.sun && !scene.output.exposure_ev;
+  if (!plan.metered)
+    plan.leftOut.push_back({"metering, adaptation of the exposure", plan.sun ? "the scene's exposure is a number" : "no sun in the scene: nothing to adapt to"});
   if (plan.air) plan.passes.emplace_back("sky");
   if (plan.clouds) {
     plan.passes.emplace_back("maps");
@@ -22,6 +25,7 @@ FramePlan planFrame(const Scene& scene) {
     plan.passes.insert(plan.passes.end(), {"reproject", "march"});
   }
   plan.passes.emplace_back("composite");
+  if (plan.metered) plan.passes.emplace_back("exposure");
   if (plan.clouds) plan.passes.emplace_back("bricks");
   return plan;
 }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <deque>
 #include <future>
+#include <limits>
 
 #include "render/bricks/brick_passes.h"
 #include "render/march/cloud_passes.h"
 #include "render/albedo_picture.h"
 #include "render/tree/resident_tree.h"
 #include "welkin/render/composite/composite_pass.h"
+#include "welkin/render/exposure/exposure_pass.h"
 #include "welkin/render/sky/sky_tables.h"
 #include "welkin/shared/counters.glsl.h"
 
@@ -55,6 +57,7 @@ struct Renderer::Impl {
   gpu::Buffer camera, counters;
   std::optional<SkyTables> sky;
   std::optional<CompositePass> composite;
+  std::optional<ExposurePass> exposure;
   std::unique_ptr<DensitySource> source;
   RootFrame root;
   std::optional<ResidentTree> tree;
@@ -76,7 +79,9 @@ struct Renderer::Impl {
   float greatestDetail = 1e6f;      // of this picture's pixels
   void updateTreeBlock(glm::dvec3 camera_planet);
   void beginPicture(const ViewFrame& frame);                  // camera, counters, sky
-  void endPicture(const ViewFrame& frame, const View& view);  // composite
+  // Composite and exposure. sinceLast_s: ExposurePass::meter; none: the exposure stays where it is, unless there is none yet.
+  void endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s);
+  double shown_ev(const View& view) const;
   FrameStats report(FrameStats stats) const;
 };
 
@@ -107,6 +112,11 @@ Result<void> Renderer::Impl::create() {
   auto compositePass = CompositePass::create(account, scene, settings.width, settings.height, albedo.width ? &albedo : nullptr);
   if (!compositePass) return compositePass.error();
   composite.emplace(std::move(*compositePass));
+  if (plan.metered) {
+    auto exposurePass = ExposurePass::create(account, scene);
+    if (!exposurePass) return exposurePass.error();
+    exposure.emplace(std::move(*exposurePass));
+  }
   if (!plan.clouds) return {};
 
   auto made = sourceMade.get();
@@ -193,10 +203,21 @@ void Renderer::Impl::beginPicture(const ViewFrame& frame) {
   timer.end();
 }
 
-void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view) {
+void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s) {
   timer.begin("composite");
-  composite->run(frame.block, view.exposure_ev.value_or(scene.exposure_ev));
+  composite->run(frame.block, view.exposure_ev.value_or(scene.output.exposure_ev.value_or(0)));
   timer.end();
+  if (!exposure) return;
+  timer.begin("exposure");
+  if (!view.exposure_ev && (sinceLast_s || !exposure->metered()))
+    exposure->meter(composite->radiance(), sinceLast_s.value_or(std::numeric_limits<double>::infinity()));
+  exposure->show(composite->radiance(), composite->display(), view.exposure_ev);
+  timer.end();
+}
+
+double Renderer::Impl::shown_ev(const View& view) const {
+  if (view.exposure_ev) return *view.exposure_ev;
+  return exposure ? exposure->reached_ev() : scene.output.exposure_ev.value_or(0);
 }
 
 FrameStats Renderer::Impl::report(FrameStats stats) const {
@@ -218,7 +239,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Context& context, const 
   return renderer;
 }
 
-FrameStats Renderer::frame(const View& view, FrameMode mode) {
+FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s) {
   Impl& r = *impl_;
   FrameStats stats;
   stats.frame = r.frameNumber++;
@@ -255,18 +276,19 @@ FrameStats Renderer::frame(const View& view, FrameMode mode) {
     r.tree->bind();
     r.clouds->run(frame, mode, r.scene, r.timer);
     stats.bricksGenerated = static_cast<std::uint32_t>(generate.size());
-    r.endPicture(frame, view);
+    r.endPicture(frame, view, sinceLast_s);
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
     r.timer.end();
     if (!r.asked.empty() || haveEdits || r.step == 0 || r.settings.waitForEdits) r.ask(frame, r.settings.bricksPerFrame, false);
   } else {
-    r.endPicture(frame, view);
+    r.endPicture(frame, view, sinceLast_s);
   }
   shared::Counters counted{};
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   r.counters.download(0, std::as_writable_bytes(std::span(&counted, 1)));
   stats.counters = {counted.nanPixels, counted.holes, counted.marchedPixels, counted.rejectedPixels, counted.cells, counted.samples};
+  stats.exposure_ev = r.shown_ev(view);  // the counters have been waited for: this is a copy
   stats.passes = r.timer.collect();
   stats.wall_ms = gpu::wall_ms() - wall0;
   stats.cpu_ms = gpu::processCpu_ms() - cpu0;
@@ -328,7 +350,7 @@ void Renderer::preview(const View& view) {
     r.tree->bind();
     r.clouds->preview(r.scene);
   }
-  r.endPicture(frame, view);
+  r.endPicture(frame, view, {});
   r.timer.enabled = timed;
 }
 

@@ -144,7 +144,8 @@ class BadInput(unittest.TestCase):
     def test_usage(self):
         for more in [["--size", "0x18"], ["--size", "32x0"], ["--size", "100000x100000"], ["--size", "-3x5"], ["--size", "nanx5"],
                      ["--budget", "-1MiB"], ["--budget", "nan"], ["--budget", ""], ["--depth", "0"], ["--depth", "25"], ["--step", "nan"],
-                     ["--step", "0"], ["--step", "-1"], ["--step", "inf"], ["--seed", "-1"], ["--gpu", "fast"], ["--colour", "red"]]:
+                     ["--step", "0"], ["--step", "-1"], ["--step", "inf"], ["--seed", "-1"], ["--gpu", "fast"], ["--colour", "red"],
+                     ["--exposure", "nan"], ["--exposure", "41"], ["--tone-curve", "film"]]:
             self.fails(2, "welkin: ", "render", self.at("scene.json"), "-o", self.out, *more)
         self.fails(2, "welkin: ", "render", self.at("scene.json"))
         self.fails(2, "welkin: ", "render", self.at("scene.json"), "-o", self.at("out.bmp"))

@@ -1,4 +1,4 @@
-// The picture: ground, sun, air and the cloud layer, in linear radiance and tone-mapped.
+// The picture: ground, sun, air and the cloud layer, in linear radiance, and tone-mapped where the exposure is known beforehand.
 #include "lib/composite.glsl"
 #include "welkin/shared/bindings.glsl.h"
 #include "welkin/shared/counters.glsl.h"
@@ -7,7 +7,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = WK_CAMERA_BINDING) uniform CameraUniforms { CameraBlock camera; };
 layout(std430, binding = WK_COUNTERS_BINDING) buffer CounterBuffer { Counters counters; };
 layout(rgba32f, binding = 0) uniform writeonly image2D u_radiance;
+#if OPT_DISPLAY
 layout(rgba8, binding = 1) uniform writeonly image2D u_display;
+#endif
 #if OPT_AIR
 layout(std140, binding = WK_AIR_PARAMS_BINDING) uniform AirUniforms { AirBlock u_air; };
 layout(binding = WK_SKY_TRANSMITTANCE_UNIT) uniform sampler2D u_skyTransmittance;
@@ -74,11 +76,16 @@ void main() {
 #else
   light = cloud.rgb + cloud.a * light;
 #endif
-  vec3 shown = toneMap(light, u_exposure, uint(pixel.x), uint(pixel.y));
-  if (any(isnan(light)) || any(isinf(light)) || isnan(cloud.a)) {
+#if OPT_DISPLAY
+  vec3 shown = displayValues(TONE_CURVE(toneInput(light, u_exposure)), uint(pixel.x), uint(pixel.y));
+#endif
+  bool broken = any(isnan(light)) || any(isinf(light)) || isnan(cloud.a);
+  if (broken) {
     atomicAdd(counters.nanPixels, 1u);
-    light = shown = vec3(1.0, 0.0, 1.0);
+    light = kNanPaint;
   }
   imageStore(u_radiance, pixel, vec4(light, 1.0 - cloud.a));
-  imageStore(u_display, pixel, vec4(shown, 1.0));
+#if OPT_DISPLAY
+  imageStore(u_display, pixel, vec4(broken ? kNanPaint : shown, 1.0));
+#endif
 }

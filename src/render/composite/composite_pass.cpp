@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <string>
 
+#include "welkin/render/exposure/exposure_pass.h"
+#include "welkin/render/frame_plan.h"
+#include "welkin/render/tone_curve.h"
 #include "welkin/shared/bindings.glsl.h"
-#include "welkin/shared/tonemap.glsl.h"
 
 namespace welkin {
 namespace {
@@ -49,10 +50,14 @@ Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const S
     pass.sunRadius_rad_ = static_cast<float>(scene.sun->angularRadius_rad);
   }
   const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
-  auto program = gpu::Program::compute("pass/composite/composite.comp", {{"OPT_CLOUDS", onOff(scene.clouds.has_value())},
-                                                                         {"OPT_AIR", onOff(scene.atmosphere.has_value())},
-                                                                         {"OPT_SUN", onOff(scene.sun.has_value())},
-                                                                         {"OPT_ALBEDO_MAP", onOff(albedo != nullptr)}});
+  pass.shows_ = !planFrame(scene).metered;
+  gpu::Defines defines{{"OPT_CLOUDS", onOff(scene.clouds.has_value())},
+                       {"OPT_AIR", onOff(scene.atmosphere.has_value())},
+                       {"OPT_SUN", onOff(scene.sun.has_value())},
+                       {"OPT_ALBEDO_MAP", onOff(albedo != nullptr)},
+                       {"OPT_DISPLAY", onOff(pass.shows_)}};
+  if (pass.shows_) defines.emplace_back("TONE_CURVE", toneCurveFunction(scene.output.toneCurve));
+  auto program = gpu::Program::compute("pass/composite/composite.comp", defines);
   if (!program) return program.error();
   pass.program_ = std::move(*program);
   auto radiance = target(account, GL_RGBA32F, width, height);
@@ -104,7 +109,7 @@ void CompositePass::swap(CompositePass& o) noexcept {
   display_.swap(o.display_);
   std::swap(width_, o.width_), std::swap(height_, o.height_);
   std::swap(albedo_, o.albedo_), std::swap(toSun_, o.toSun_), std::swap(sunIrradiance_, o.sunIrradiance_);
-  std::swap(sunRadius_rad_, o.sunRadius_rad_);
+  std::swap(sunRadius_rad_, o.sunRadius_rad_), std::swap(shows_, o.shows_);
   std::swap(albedoMap_, o.albedoMap_), std::swap(albedoBytes_, o.albedoBytes_), std::swap(account_, o.account_);
 }
 
@@ -118,9 +123,9 @@ void CompositePass::run(const shared::CameraBlock& camera, double exposure_ev) c
   program_.set("u_sunIrradiance", sunIrradiance_);
   program_.set("u_sunRadius_rad", sunRadius_rad_);
   program_.set("u_pixel_rad", static_cast<float>(pixel_rad));
-  program_.set("u_exposure", static_cast<float>(shared::kBaseExposure * std::exp2(exposure_ev)));
+  program_.set("u_exposure", exposureScale(exposure_ev));
   radiance_.bindImage(0, GL_WRITE_ONLY);
-  display_.bindImage(1, GL_WRITE_ONLY);
+  if (shows_) display_.bindImage(1, GL_WRITE_ONLY);
   program_.dispatch(static_cast<unsigned>(width_ + 7) / 8, static_cast<unsigned>(height_ + 7) / 8);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }

@@ -99,6 +99,47 @@ TEST_F(Composite, EveryVariantDraws) {
   }
 }
 
+// The sun's disc without air: its light is the irradiance, whether it fills a hundred pixels or a hundredth of one; its width and its limb.
+TEST_F(Composite, SunDiscHasItsLightAndSize) {
+  for (const double radius_rad : {0.004675, 0.000487})
+    for (const double pixelsPerRadius : {50.0, 10.0, 3.0, 1.0, 0.4, 0.1}) {
+      Scene scene = skyScene(60 * kDegree);
+      scene.atmosphere.reset();
+      scene.sun->irradiance = {1.0, 2.0, 0.5};
+      scene.sun->angularRadius_rad = radius_rad;
+      const double pixel_rad = radius_rad / pixelsPerRadius;
+      const int n = std::clamp(int(0.1 / pixel_rad) * 2 + 1, 5, 129);  // so narrow that all pixels are of one size
+      const double fov_rad = 2 * std::atan(pixel_rad * n / 2);
+      // At the pole, looking at the sun 30 degrees high, a third of a pixel aside.
+      const auto view = cameraOver(scene, 1000, 0.35 * pixel_rad / std::cos(30 * kDegree), 30 * kDegree + 0.2 * pixel_rad, fov_rad, 1);
+      upload(view);
+      auto pass = CompositePass::create(account, scene, n, n);
+      ASSERT_TRUE(pass.ok()) << pass.error().message;
+      pass->run(view, 0);
+      const auto pixels = radianceOf(*pass);
+      glm::dvec3 sum(0);
+      int bright = 0;
+      const glm::vec4 centre = pixels[std::size_t(n / 2) * n + n / 2];
+      for (const glm::vec4& p : pixels) {
+        sum += glm::dvec3(p) * pixel_rad * pixel_rad;
+        bright += p.g > 0.25f * centre.g;
+      }
+      // Ripple of the cone between pixels from 0.94 to 1.12, limb darkening within 0.03; ten pixels and more are exact to 1 %.
+      const double tolerance = pixelsPerRadius >= 10 ? 0.01 : pixelsPerRadius >= 3 ? 0.03 : 0.12;
+      EXPECT_NEAR(sum.r, 1.0, tolerance) << radius_rad << " " << pixelsPerRadius;
+      EXPECT_NEAR(sum.g / 2, 1.0, tolerance) << pixelsPerRadius;
+      EXPECT_NEAR(sum.b / 0.5, 1.0, tolerance) << pixelsPerRadius;
+      if (pixelsPerRadius < 10) continue;
+      // The rim in green is 0.38 of the centre, so all of the disc is over a quarter: its area in pixels, but for half a pixel at the rim.
+      const double area = kDegree * 180 * pixelsPerRadius * pixelsPerRadius;
+      EXPECT_NEAR(bright / area, 1, 1.2 / pixelsPerRadius);
+      // Halfway out m = sqrt(3) / 2; the pixel may be half of one aside, and limb darkening is stretched by 1 / (4 n^2).
+      const glm::vec4 halfway = pixels[std::size_t(n / 2) * n + n / 2 + std::size_t(std::lround(pixelsPerRadius / 2))];
+      EXPECT_NEAR(halfway.b / centre.b, 1 - 0.78 * (1 - std::sqrt(0.75)), 0.6 / pixelsPerRadius);
+      EXPECT_GT(halfway.r / centre.r, halfway.b / centre.b) << "the limb is red";
+    }
+}
+
 // Longitude 0 (+X) in the middle of the picture, north (+Z) up, longitude 90 east (+Y) to the right of the middle.
 TEST_F(Composite, AlbedoPictureLiesTheRightWayRound) {
   AlbedoPicture picture{8, 4, std::vector<std::uint8_t>(8 * 4 * 4, 0)};

@@ -11,6 +11,7 @@
 #include "welkin/shared/cloud_source.glsl.h"
 #include "welkin/shared/cloud_sphere.glsl.h"
 #include "welkin/shared/counters.glsl.h"
+#include "welkin/shared/exposure.glsl.h"
 #include "welkin/shared/tree_block.glsl.h"
 
 namespace welkin {
@@ -54,6 +55,12 @@ const std::map<std::string, BlockLayout>& blocks() {
        {{AT("counters.", Counters, nanPixels), AT("counters.", Counters, holes), AT("counters.", Counters, marchedPixels),
          AT("counters.", Counters, rejectedPixels), AT("counters.", Counters, cells), AT("counters.", Counters, samples)},
         sizeof(Counters),
+        ""}},
+      {"ExposureBuffer",
+       {{AT("exposure.", ExposureBlock, ev), AT("exposure.", ExposureBlock, scale), AT("exposure.", ExposureBlock, adapted_ev),
+         AT("exposure.", ExposureBlock, target_ev), AT("exposure.", ExposureBlock, metered), AT("exposure.", ExposureBlock, started),
+         AT("exposure.", ExposureBlock, bins[0]), AT("exposure.", ExposureBlock, stepScale[0])},
+        sizeof(ExposureBlock),
         ""}},
       {"Results",
        {{AT("results[0].", GpuBrickResult, minBits), AT("results[0].", GpuBrickResult, maxBits),
@@ -141,7 +148,8 @@ const std::map<std::string, BlockLayout>& blocks() {
          AT("u_air.", AirBlock, params.peakLayer), AT("u_air.", AirBlock, params.peakPhase), AT("u_air.", AirBlock, view.upX),
          AT("u_air.", AirBlock, view.muHorizon), AT("u_air.", AirBlock, view.skyEnd), AT("u_air.", AirBlock, view.anchorAltitude_m),
          AT("u_air.", AirBlock, view.anchorOverCentre), AT("u_air.", AirBlock, layers[0].a), AT("u_air.", AirBlock, layers[0].profile),
-         AT("u_air.", AirBlock, layers[5].g)},
+         AT("u_air.", AirBlock, params.sunNight), AT("u_air.", AirBlock, params.sunSin), AT("u_air.", AirBlock, layers[0].forward),
+         AT("u_air.", AirBlock, layers[0].moments[0]), AT("u_air.", AirBlock, layers[5].g)},
         sizeof(AirBlock),
         ""}},
   };

@@ -54,6 +54,33 @@ TEST(Options, sizesRangesAndLists) {
   for (const char* wrong : {"", ",", "1,", "-1", "1 2"}) EXPECT_FALSE(parseFrameList(wrong).ok()) << wrong;
 }
 
+TEST(Options, exposureAndToneCurve) {
+  EXPECT_EQ(parseExposure("-1.5")->ev, -1.5);
+  EXPECT_TRUE(parseExposure("auto").ok());
+  EXPECT_FALSE(parseExposure("auto")->ev);
+  for (const char* wrong : {"", "bright", "1 2", "41", "-41", "nan", "inf", "1x"}) EXPECT_FALSE(parseExposure(wrong).ok()) << wrong;
+  EXPECT_EQ(*parseToneCurve("uchimura"), ToneCurve::Uchimura);
+  for (const char* wrong : {"", "filmic", "ACES"}) EXPECT_FALSE(parseToneCurve(wrong).ok()) << wrong;
+
+  // In place of the scene's and of every view's.
+  Scene scene;
+  scene.views["a"].exposure_ev = 3;
+  View view = scene.views["a"];
+  CommonOptions options;
+  apply(options, scene);
+  apply(options, view);
+  EXPECT_EQ(view.exposure_ev, 3);
+  options.exposure = Exposure{};
+  apply(options, scene);
+  apply(options, view);
+  EXPECT_FALSE(scene.output.exposure_ev || scene.views["a"].exposure_ev || view.exposure_ev);
+  options.exposure = Exposure{-2};
+  options.toneCurve = ToneCurve::Lottes;
+  apply(options, scene);
+  EXPECT_EQ(scene.output.exposure_ev, -2);
+  EXPECT_EQ(scene.output.toneCurve, ToneCurve::Lottes);
+}
+
 TEST(CommandLine, helpHasAnExampleEverywhere) {
   EXPECT_EQ(run({"--help"}).exit, 0);
   EXPECT_THAT(run({"--version"}).out, HasSubstr("welkin 0."));
@@ -81,6 +108,8 @@ TEST(CommandLine, wrongUsageIsOneLineAndTwo) {
   expectUsageError(run({"render", "a.json", "-o", "a.png", "--step", "-1"}));
   expectUsageError(run({"render", "a.json", "-o", "a.png", "--seed", "4294967296"}));
   expectUsageError(run({"render", "a.json", "-o", "a.png", "--gpu", "fast"}));
+  expectUsageError(run({"render", "a.json", "-o", "a.png", "--exposure", "bright"}));
+  expectUsageError(run({"render", "a.json", "-o", "a.png", "--tone-curve", "film"}));
   expectUsageError(run({"render", "a.json", "-o", "a.png", "--unknown"}));
   expectUsageError(run({"fly", "a.json", "--frames", "9:3"}));
   expectUsageError(run({"fly", "a.json", "--every", "-1"}));

@@ -127,6 +127,7 @@ TimingReport report() {
     row.stats.passes["march"] = {10.0 + i, 20.0};
     if (i > 1) row.stats.passes["bricks"] = {5, 6};
     row.stats.wall_ms = 20;
+    row.stats.exposure_ev = 0.5 * i;
     row.stats.counters.nanPixels = i == 3 ? 2 : 0;
     row.stats.bytesUsed = 1000 + std::uint64_t(i);
     row.stats.bytesBudget = 2000;
@@ -157,6 +158,7 @@ TEST(Timings, jsonHasWhatIsPromised) {
   EXPECT_EQ(j["pop"]["p999_255"], 1.5);
   EXPECT_EQ(j["pop"]["largest_mean_255"], 0.1);
   EXPECT_EQ(j["frames"].size(), 4u);
+  EXPECT_EQ(j["frames"][3]["exposure_ev"], 1.5);
   EXPECT_EQ(j["frames"][2]["passes"]["bricks"]["wall_ms"], 5);
   // As Google Benchmark's own tools read them.
   for (const auto& b : j["benchmarks"]) {

@@ -31,7 +31,8 @@ inline const std::string kFullScene = R"({
                "exposure_ev": 3},
     "space": {"position_m": [14000000, 0, 0], "orientation_xyzw": [0.5, 0.5, 0.5, 0.5], "fov_deg": 40}},
   "quality": {"budget": "128MiB", "depth": 12, "step": 0.4, "detail": 300, "seed": 7},
-  "output": {"exposure_ev": 1.5}
+  "output": {"exposure_ev": 1.5, "tone_curve": "lottes", "auto_exposure": {"compensation_ev": -0.5, "adapt_to_bright_s": 0.3,
+    "adapt_to_dark_s": 2, "low_percentile": 20, "high_percentile": 90, "min_ev": -3, "max_ev": 9}}
 }
 )";
 

@@ -70,9 +70,21 @@ TEST(SceneIo, readsEveryKey) {
   EXPECT_EQ(s.quality.budget_bytes, 128ull << 20);
   EXPECT_EQ(s.quality.depth, 12);
   EXPECT_EQ(s.quality.seed, 7u);
-  EXPECT_EQ(s.exposure_ev, 1.5);
+  EXPECT_EQ(s.output.exposure_ev, 1.5);
+  EXPECT_EQ(s.output.toneCurve, ToneCurve::Lottes);
+  EXPECT_EQ(s.output.autoExposure.adaptToDark_s, 2);
   EXPECT_EQ(s.views.at("ground").exposure_ev, 3);
   EXPECT_EQ(s.views.at("space").position_m.x, 14e6);
+}
+
+TEST(SceneIo, exposureIsANumberOrMetered) {
+  EXPECT_EQ(mustParse("{}").output.exposure_ev, 0) << "as it has always been";
+  EXPECT_EQ(mustParse("{}").output.toneCurve, ToneCurve::Aces);
+  const Scene metered = mustParse(R"({"output": {"exposure_ev": "auto", "auto_exposure": {"low_percentile": 97, "min_ev": 20}}})");
+  EXPECT_FALSE(metered.output.exposure_ev);
+  EXPECT_EQ(metered.output.autoExposure.highPercentile, 97) << "never below the low one";
+  EXPECT_EQ(metered.output.autoExposure.max_ev, 20);
+  EXPECT_FALSE(mustParse(sceneToJson(metered)).output.exposure_ev);
 }
 
 TEST(SceneIo, absentSectionsAreAbsent) {
@@ -186,6 +198,11 @@ TEST(SceneIo, wrongValuesAreToldWithTheirPlace) {
   says("/quality/depth", 25, "from 1 to 24");
   says("/quality/seed", -1, "from 0");
   says("/output/exposure_ev", json::array(), "a number");
+  says("/output/exposure_ev", "bright", "one of: auto");
+  says("/output/tone_curve", "filmic", "one of: aces, reinhard, lottes, uchimura");
+  says("/output/auto_exposure/high_percentile", 10, "from 20 to 100");
+  says("/output/auto_exposure/max_ev", -5, "from -3 to 40");
+  says("/output/auto_exposure/adapt_to_dark_s", -1, "from 0");
 }
 
 TEST(SceneIo, unknownRepeatedAndMissingKeys) {

@@ -21,8 +21,9 @@ Result<FrameStats> drawConverged(Renderer& renderer, const View& view, const std
 
 void describeDevice(const gpu::Context& context, measure::ReportContext& out);
 
-// State for a picture of this renderer's scene that will lie at `picture`.
-PictureState stateOf(const Renderer& renderer, const View& view, Size size, double time_s, bool converged,
+// State for a picture of this renderer's scene that will lie at `picture`. exposure_ev: at which it is shown (FrameStats); a metered
+// one becomes the view's own, so that the picture comes back equal.
+PictureState stateOf(const Renderer& renderer, const View& view, double exposure_ev, Size size, double time_s, bool converged,
                      const std::map<std::filesystem::path, std::string>& data);
 
 }  // namespace welkin::app

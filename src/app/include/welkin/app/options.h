@@ -19,6 +19,12 @@ struct Size {
 };
 Result<Size> parseSize(const std::string& text);  // "1280x720", 1..16384 each
 
+struct Exposure {
+  std::optional<double> ev;  // none: metered
+};
+Result<Exposure> parseExposure(const std::string& text);    // "auto", or stops from -40 to 40
+Result<ToneCurve> parseToneCurve(const std::string& text);  // one of kToneCurveNames
+
 struct FrameRange {  // first, and one past the last; the end may be open
   int first = 0;
   std::optional<int> end;
@@ -33,11 +39,14 @@ struct CommonOptions {
   std::optional<int> depth;
   std::optional<double> step, detail;
   std::optional<std::uint32_t> seed;
+  std::optional<Exposure> exposure;  // in place of the scene's and of every view's
+  std::optional<ToneCurve> toneCurve;
   std::string gpu = "auto";
   bool quiet = false;
   std::filesystem::path json;
 };
 void apply(const CommonOptions& options, Scene& scene);
+void apply(const CommonOptions& options, View& view);
 
 // What `render` and `plan` start from: a scene file with one of its views, or a picture with the view it shows.
 struct Start {

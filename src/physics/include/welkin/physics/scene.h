@@ -40,7 +40,7 @@ struct Atmosphere {
 };
 
 struct Sun {
-  Spectrum3 irradiance{1.0, 1.0, 1.0};  // at the planet; relative unless the scene says W/m2/nm
+  Spectrum3 irradiance{1.0, 1.0, 1.0};  // at the planet, of a plane facing the sun: W/m2/nm, or relative (docs/exposure.md)
   double angularRadius_rad = 0.004675;
   glm::dvec3 direction_planet{1, 0, 0};  // unit, towards the sun, planet frame
 };
@@ -80,7 +80,7 @@ struct View {
   glm::dvec3 position_m{0, 0, 0};                // planet frame
   glm::dquat orientation{1, 0, 0, 0};            // planetFromView; the view looks along -Z, +X right, +Y up
   double fov_deg = 58;                           // vertical
-  std::optional<double> exposure_ev;             // overrides the scene's
+  std::optional<double> exposure_ev;             // overrides the scene's, metered or not
 };
 
 struct Quality {
@@ -91,6 +91,24 @@ struct Quality {
   std::uint32_t seed = 1;
 };
 
+// How linear radiance becomes the colours of a display (shared/tonemap.glsl.h has the curves and their sources).
+enum class ToneCurve { Aces, Reinhard, Lottes, Uchimura };
+inline constexpr std::array<const char*, 4> kToneCurveNames{"aces", "reinhard", "lottes", "uchimura"};  // in files and on the command line
+
+// A metered exposure: the mean of the picture's log luminance between two percentiles is shown as middle grey (0.18 of white).
+struct AutoExposure {
+  double compensation_ev = 0;                           // stops brighter than that
+  double adaptToBright_s = 0.4, adaptToDark_s = 1.2;    // time constants: 63 % of the way to a darker and to a brighter exposure
+  double lowPercentile = 10, highPercentile = 90;       // of the pixels that are not black
+  double min_ev = -8, max_ev = 16;
+};
+
+struct Output {
+  std::optional<double> exposure_ev = 0.0;  // stops over kBaseExposure; none ("auto"): metered
+  ToneCurve toneCurve = ToneCurve::Aces;
+  AutoExposure autoExposure;
+};
+
 struct Scene {
   std::string name;
   std::filesystem::path file;  // where it came from; relative data paths start at its folder
@@ -99,7 +117,7 @@ struct Scene {
   std::optional<Sun> sun;
   std::optional<Clouds> clouds;
   Quality quality;
-  double exposure_ev = 0;
+  Output output;
   std::map<std::string, View> views;
 };
 

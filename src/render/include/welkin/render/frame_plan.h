@@ -17,6 +17,7 @@ struct FramePlan {
   bool clouds = false;  // octree, bricks, light, maps, march, reprojection
   bool air = false;     // sky tables and aerial perspective
   bool sun = false;     // light from the sun, its disc, shadows
+  bool metered = false;  // histogram, adaptation, tone mapping in a pass of its own
   std::vector<std::string> passes;  // in order
   std::vector<LeftOut> leftOut;
 };

@@ -1,6 +1,7 @@
 #pragma once
 // Draws a scene: streams the octree around the camera, runs the passes of the frame's plan, hands back pixels and numbers.
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -43,6 +44,7 @@ struct FrameStats {
   std::uint32_t bricksGenerated = 0, bricksLit = 0;
   std::uint64_t bytesUsed = 0, bytesBudget = 0, frameTargetBytes = 0;
   double sampleDetail = 0;
+  double exposure_ev = 0;  // at which the picture is shown: of the view, of the scene, or metered
 };
 
 enum class FrameMode { Reprojected, Full };  // Full marches every pixel and writes history too
@@ -61,13 +63,14 @@ class Renderer {
   static Result<std::unique_ptr<Renderer>> create(gpu::Context& context, const Scene& scene, const RenderSettings& settings);
   ~Renderer();
 
-  // One frame: edits are applied, passes run, the next edits are asked for.
-  FrameStats frame(const View& view, FrameMode mode = FrameMode::Reprojected);
+  // One frame: edits are applied, passes run, the next edits are asked for. sinceLast_s: scene time since the frame before; a metered
+  // exposure adapts for so long, without it fully.
+  FrameStats frame(const View& view, FrameMode mode = FrameMode::Reprojected, double sinceLast_s = std::numeric_limits<double>::infinity());
   // Streams (draws nothing) until nothing is pending for this view, then returns. `progress` gets 0..1 and may return false to stop.
   FrameStats settle(const View& view, const std::function<bool(double)>& progress = {});
   void setStep(double step);  // Quality::step from the next picture on; the tree stays as it is
-  // Draws this view from the tree as it is now, every pixel marched; no edit is applied, history and frame count stay. For
-  // comparing: image() and radiance() then return this picture.
+  // Draws this view from the tree as it is now, every pixel marched; no edit is applied; history, frame count and metered exposure
+  // stay. For comparing: image() and radiance() then return this picture.
   void preview(const View& view);
   Image8 image() const;
   ImageF radiance() const;

@@ -9,6 +9,7 @@
 #define WK_BRICK_RESULTS_BINDING 3
 #define WK_COUNTERS_BINDING 4
 #define WK_MAP_JOBS_BINDING 5
+#define WK_EXPOSURE_BINDING 5      // after the maps, which bind their jobs anew each time: GL promises eight, 0 to 7
 #define WK_PIXELS_BINDING 6
 #define WK_AIR_PARAMS_BINDING 7
 // uniform buffers
@@ -24,5 +25,6 @@
 #define WK_CLOUD_LIGHT_UNIT 14     // RGBA16F: cloud radiance towards the camera without the air between; a: cloud transmittance
 #define WK_CLOUD_AUX_UNIT 15       // RG32F: transmittance-weighted cloud distance [m]; sun visibility of the ground point, 0..1
 #define WK_ALBEDO_UNIT 16
-#define WK_CLOUD_AGE_UNIT 18       // R8UI: frames since a pixel's cloud was marched
 #define WK_CLOUD_CHANGE_UNIT 17    // RGBA16F, a texel for 4 x 4 pixels: what the marched one differs from its history
+#define WK_CLOUD_AGE_UNIT 18       // R8UI: frames since a pixel's cloud was marched
+#define WK_SKY_FIELD_UNIT 19       // diffuse light, 2-D array, a layer a moment (lib/air_field.glsl)

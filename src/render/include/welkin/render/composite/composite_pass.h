@@ -1,5 +1,5 @@
 #pragma once
-// The last pass: ground, sun, air and the cloud layer to one picture, in linear radiance and tone-mapped.
+// Puts the picture together: ground, sun, air and the cloud layer to one picture, in linear radiance and tone-mapped.
 #include <cstdint>
 #include <vector>
 
@@ -35,7 +35,8 @@ class CompositePass {
   }
 
   // Reads the camera (WK_CAMERA_BINDING, the same block as here), the sky tables (SkyTables::bind) and the cloud layer's two textures;
-  // counts into WK_COUNTERS_BINDING. Exposure in EV: 0 suits a sun of irradiance 1.
+  // counts into WK_COUNTERS_BINDING. Exposure in EV: 0 suits a sun of irradiance 1; of a scene with a metered exposure it is not used,
+  // and display() is left to ExposurePass::show.
   void run(const shared::CameraBlock& camera, double exposure_ev) const;
 
   const gpu::Texture& radiance() const { return radiance_; }  // RGBA32F, linear, before exposure; a = 1 - cloud transmittance
@@ -51,6 +52,7 @@ class CompositePass {
   int width_ = 0, height_ = 0;
   glm::vec3 albedo_{}, toSun_{}, sunIrradiance_{};
   float sunRadius_rad_ = 0;
+  bool shows_ = true;     // tone-maps too
   GLuint albedoMap_ = 0;  // with smaller copies, which gpu::Texture has not
   std::uint64_t albedoBytes_ = 0;
   gpu::MemoryAccount* account_ = nullptr;
