@@ -32,7 +32,7 @@ class PathDrawer {
     double altitude_m;
     glm::dvec3 up;
   };
-  void fill(PathSegment& segment, bool directCounts);
+  void fill(PathSegment& segment, bool directCounts, bool guided);
   Spectrum expected(double altitude_m, double muSun, bool directCounts) const;
   Spectrum expectedOfGround(double muSun, bool directCounts) const;
   Event drawEvent(const PathSegment& segment, int hero, PathNumbers& numbers);

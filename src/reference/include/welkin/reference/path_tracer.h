@@ -31,7 +31,7 @@ class Guide;
 // over the density it was drawn with, so that no path is lost to space and none is biased; at each event the sun is seen through the
 // air in its way; the next direction comes from the phase functions there. All three wavelengths share a path, weighted by the mean of the
 // densities that each would have drawn it with (balance heuristic; Wilkie et al. 2014). Paths end by Russian roulette on
-// the light still expected.
+// what they still carry.
 class PathTracer {
  public:
   explicit PathTracer(const Medium& medium);  // keeps a reference
