@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kPlainShare = 0.15;  // of events drawn without the guide: bounds a weight by 7 where the guide is wrong
-constexpr int kGuidedEvents = 3;      // later ones are drawn without it: its factors would spread the weights of long paths
+constexpr int kGuidedEvents = 5;  // later ones are drawn without it: its factors would spread the weights of long paths
 constexpr int kFirstRoulette = 3;     // the event from which paths may end early
 
 double mean(const Spectrum& v) { return (v.x + v.y + v.z) / 3; }
