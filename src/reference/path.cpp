@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kPlainShare = 0.15;  // of events drawn without the guide: bounds a weight by 7 where the guide is wrong
+constexpr double kGuidedShare = 0.5;   // of directions
 constexpr int kGuidedEvents = 5;  // later ones are drawn without it: its factors would spread the weights of long paths
 constexpr int kFirstRoulette = 3;     // the event from which paths may end early
 
@@ -139,19 +140,27 @@ Spectrum PathDrawer::sunAt(const Event& event, PathNumbers& numbers) {
   return event.ground ? t * mu : t;
 }
 
-// The next segment, in a direction drawn from the phase functions at the event, or from the ground by the cosine. False: the hero cannot
-// go on.
-bool PathDrawer::turn(const Event& event, int hero, PathNumbers& numbers) {
+// The next segment, in a direction drawn from the phase functions at the event (from the ground: by the cosine) or, if guided, half of the
+// time from the guide. False: the path brings nothing more.
+bool PathDrawer::turn(const Event& event, int hero, bool guided, PathNumbers& numbers) {
+  const Spectrum all = event.ground ? medium_.albedo : layerScattering(medium_, event.altitude_m);
+  if (!(all[hero] > 0)) return false;  // on the edge of a layer
+  const double muSun = std::clamp(glm::dot(event.up, toSun_), -1.0, 1.0), share = guided ? kGuidedShare : 0;
+  const glm::dvec3 level = toSun_ - event.up * muSun;
+  // With the sun overhead the guide knows no azimuths: any will do
+  const glm::dvec3 side = glm::dot(level, level) > 0 ? glm::normalize(level) : directionAbout(event.up, 0, 0);
+  const glm::dvec3 other = glm::cross(event.up, side);
+  const double how = numbers.next();
   glm::dvec3 direction;
-  if (event.ground) {
-    numbers.next();  // which layer: keeps the lattice's dimensions in their places
+  if (how < share) {
+    const auto [mu, azimuth] = guide_.sampleDirection(event.altitude_m, muSun, hero, numbers.next(), numbers.next());
+    const double turned = numbers.plain() < 0.5 ? azimuth : -azimuth, sine = std::sqrt(std::max(1 - mu * mu, 0.0));
+    direction = glm::normalize(event.up * mu + (side * std::cos(turned) + other * std::sin(turned)) * sine);
+  } else if (event.ground) {
     const double cosine = std::sqrt(numbers.next());
     direction = directionAbout(event.up, cosine, numbers.next());
-    carried_ *= medium_.albedo;  // albedo / pi * cosine over cosine / pi
   } else {
-    const Spectrum all = layerScattering(medium_, event.altitude_m);
-    if (!(all[hero] > 0)) return false;  // on the edge of a layer
-    double pick = numbers.next() * all[hero];
+    double pick = (how - share) / (1 - share) * all[hero];
     const MediumLayer* chosen = nullptr;
     for (const MediumLayer& layer : medium_.layers) {
       const double s = layer.scattering[hero] * density(layer, event.altitude_m);
@@ -161,13 +170,19 @@ bool PathDrawer::turn(const Event& event, int hero, PathNumbers& numbers) {
     }
     const double c = samplePhase(chosen->phase, chosen->g, numbers);
     direction = directionAbout(next_.direction, c, numbers.next());
-    const Spectrum towards = scatteringTowards(medium_, event.altitude_m, c);
-    carried_ *= towards;
-    for (int k = 0; k < 3; ++k) densities_[k] *= all[k] > 0 ? towards[k] / all[k] : 0;
   }
+  const double mu = std::clamp(glm::dot(event.up, direction), -1.0, 1.0);
+  if (event.ground && mu <= 0) return false;
+  const Spectrum towards = event.ground ? medium_.albedo * (mu / kPi)
+                                        : scatteringTowards(medium_, event.altitude_m, glm::dot(next_.direction, direction));
+  carried_ *= towards;
+  Spectrum guide{};
+  if (share > 0) {
+    const double azimuth = std::atan2(std::abs(glm::dot(direction, other)), glm::dot(direction, side));
+    guide = guide_.directionDensity(event.altitude_m, muSun, {mu, azimuth});
+  }
+  for (int k = 0; k < 3; ++k) densities_[k] *= all[k] > 0 ? (1 - share) * towards[k] / all[k] + share * guide[k] : 0;
   next_.up = event.up, next_.direction = direction;
-  double mu = std::clamp(glm::dot(event.up, direction), -1.0, 1.0);
-  if (event.ground) mu = std::max(mu, 0.0);
   next_.ray = rayFrom(medium_, event.altitude_m, mu);
   const auto ground = distanceToGround(next_.ray);
   next_.length_m = ground ? *ground : distanceToTop(next_.ray, medium_.top_m);
@@ -205,7 +220,7 @@ Spectrum PathDrawer::draw(int hero, PathNumbers& numbers) {
       if (!(numbers.plain() < survives)) break;
       carried_ /= survives;
     }
-    if (!turn(event, hero, numbers)) break;
+    if (!turn(event, hero, settings_.light == Light::Sun && order < kGuidedEvents, numbers)) break;
     const double scale = densities_[hero];
     if (!(scale > 0)) break;  // a direction whose density underflows brings nothing
     carried_ /= scale, densities_ /= scale;

@@ -37,7 +37,7 @@ class PathDrawer {
   Spectrum expectedOfGround(double muSun, bool directCounts) const;
   Event drawEvent(const PathSegment& segment, int hero, PathNumbers& numbers);
   Spectrum sunAt(const Event& event, PathNumbers& numbers);
-  bool turn(const Event& event, int hero, PathNumbers& numbers);
+  bool turn(const Event& event, int hero, bool guided, PathNumbers& numbers);
 
   const Medium& medium_;
   const std::vector<double>& altitudes_m_;
