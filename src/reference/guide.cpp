@@ -55,7 +55,8 @@ Spectrum Guide::at(const std::vector<Spectrum>& table, double altitude_m, double
 }
 
 const Spectrum* Guide::skyAt(double altitude_m, double muSun) const {
-  const int i = std::clamp(int(sunPlace(muSun) + 0.5), 0, kSuns - 1), j = std::clamp(int(altitudePlace(altitude_m, top_m_) + 0.5), 0, kAltitudes - 1);
+  const int i = std::clamp(int(sunPlace(muSun) + 0.5), 0, kSuns - 1),
+            j = std::clamp(int(altitudePlace(altitude_m, top_m_) + 0.5), 0, kAltitudes - 1);
   return &sky_[(std::size_t(j) * kSuns + i) * kPatches];
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kPlainShare = 0.15;  // of events drawn without the guide: bounds a weight by 7 where the guide is wrong
-constexpr double kGuidedShare = 0.5;   // of directions
-constexpr int kGuidedEvents = 5;  // later ones are drawn without it: its factors would spread the weights of long paths
+constexpr double kGuidedShare = 0.5;  // of directions
+constexpr int kGuidedEvents = 5;      // later ones are drawn without it: its factors would spread the weights of long paths
 constexpr int kFirstRoulette = 3;     // the event from which paths may end early
 
 double mean(const Spectrum& v) { return (v.x + v.y + v.z) / 3; }
@@ -118,8 +118,8 @@ PathDrawer::Event PathDrawer::drawEvent(const PathSegment& s, int hero, PathNumb
   const double from = s.cells.edge_m[i], to = s.cells.edge_m[i + 1];
   const Spectrum depth = s.cells.depth[i + 1] - s.cells.depth[i];
   const double v = std::clamp((u - before(i)[hero]) / probability[hero], 0.0, 1.0);
-  const double t = depth[hero] > 0 ? distanceAtDepth(medium_, s.ray, from, to, hero, -std::log1p(v * std::expm1(-depth[hero])))
-                                   : from + v * (to - from);
+  const double t =
+      depth[hero] > 0 ? distanceAtDepth(medium_, s.ray, from, to, hero, -std::log1p(v * std::expm1(-depth[hero]))) : from + v * (to - from);
   const Spectrum reached = depthWithin(medium_, s.ray, from, t), here = extinction(medium_, s.ray.altitudeAt(t));
   for (int k = 0; k < 3; ++k)
     densities_[k] *= probability[k] * (depth[k] > 0 ? here[k] * std::exp(-reached[k]) / -std::expm1(-depth[k]) : 1 / (to - from));
@@ -173,8 +173,8 @@ bool PathDrawer::turn(const Event& event, int hero, bool guided, PathNumbers& nu
   }
   const double mu = std::clamp(glm::dot(event.up, direction), -1.0, 1.0);
   if (event.ground && mu <= 0) return false;
-  const Spectrum towards = event.ground ? medium_.albedo * (mu / kPi)
-                                        : scatteringTowards(medium_, event.altitude_m, glm::dot(next_.direction, direction));
+  const Spectrum towards =
+      event.ground ? medium_.albedo * (mu / kPi) : scatteringTowards(medium_, event.altitude_m, glm::dot(next_.direction, direction));
   carried_ *= towards;
   Spectrum guide{};
   if (share > 0) {
