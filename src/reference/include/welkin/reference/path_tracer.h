@@ -12,7 +12,7 @@ enum class Light { Sun, Everywhere };
 
 struct PathSettings {
   int maxOrders = 0;                   // events at most, 0: any number
-  double relativeError = 0.003;        // stop when each standard error is at most this share of the radiance
+  double relativeError = 0.003;        // stop when each standard error is at most this share of the radiance, or 1e-12 / sr
   std::uint64_t maxPaths = 4'000'000;  // or after this many paths, rounded up to whole rounds
   std::uint64_t seed = 1;              // two seeds: two independent estimates
   unsigned threads = 1;                // 0: one a core; the estimate does not depend on it
