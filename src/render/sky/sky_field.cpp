@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 
+#include "sky_cache.h"
 #include "welkin/physics/quadrature.h"
 #include "welkin/shared/bindings.glsl.h"
 
@@ -81,6 +82,14 @@ std::vector<double> leastCombination(std::vector<double> gram, std::size_t n) {
   return g;
 }
 
+std::string cacheKey(const SkyModel& model, const AirBlock& air, const gpu::Defines& defines) {
+  std::string shaders;
+  for (const char* pass : {"transmittance", "sunlight", "gather", "project"})
+    if (const auto source = gpu::loadShaderSource(std::string("pass/sky/") + pass + ".comp", defines)) shaders += *source;
+  const auto text = [](GLenum name) { return std::string(reinterpret_cast<const char*>(glGetString(name))); };
+  return fieldKey(air, model, shaders, text(GL_RENDERER) + text(GL_VERSION));
+}
+
 constexpr std::size_t kWindow = 8;  // steps that an extrapolation looks back: floats hold few more that are independent
 
 }  // namespace
@@ -118,6 +127,13 @@ Result<SkyField> SkyField::create(gpu::MemoryAccount& account, const SkyModel& m
     f.done_ = true, f.rest_ = 0;
     return f;
   }
+  f.key_ = cacheKey(model, air, defines);
+  if (auto kept = loadField(f.key_, (layers + 2) * f.points())) {
+    f.store(*kept);
+    f.done_ = f.kept_ = true;
+    f.rest_ = model.rest;
+    return f;
+  }
   if (auto r = buffer(f.directionList_, list.all.size()); !r) return r.error();
   f.directionList_.upload(0, list.all);
   if (auto r = buffer(f.radiance_, list.all.size() * f.points()); !r) return r.error();
@@ -137,18 +153,17 @@ Result<SkyField> SkyField::create(gpu::MemoryAccount& account, const SkyModel& m
   return f;
 }
 
-bool SkyField::advance() {
+bool SkyField::advance(int rows) {
   if (done_) return false;
-  gatherRows();
+  gatherRows(std::min(rows, int(model_.altitudeTexels) - row_));
   if (row_ == int(model_.altitudeTexels)) endOrder();
   return !done_;
 }
 
-void SkyField::gatherRows() {
+void SkyField::gatherRows(int rows) {
   const bool first = first_.empty();
   const gpu::Program& program = first ? firstProgram_ : nextProgram_;
   const int directions = first ? directions_ : aboutVertical_;
-  const int rows = std::min(4, int(model_.altitudeTexels) - row_);
   program.set("u_size", glm::ivec3(int(model_.sunTexels), int(model_.altitudeTexels), directions));
   program.set("u_aboutVertical", aboutVertical_);
   program.set("u_first", row_);
@@ -183,8 +198,10 @@ void SkyField::endOrder() {
   light_ = extrapolate();
   done_ = rest_ <= model_.rest || orders_ + 1 >= model_.maxOrders;
   store(light_);
-  if (done_) steps_.clear();
-  if (done_) radiance_ = {}, directionList_ = {}, first_.clear(), light_.clear();
+  if (!done_) return;
+  saveField(key_, light_);
+  radiance_ = {}, directionList_ = {};
+  steps_.clear(), first_.clear(), light_.clear();
 }
 
 void SkyField::store(const Moments& moments) {
