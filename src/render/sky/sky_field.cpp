@@ -57,7 +57,9 @@ DirectionList directionList(const SkyModel& model, const AirBlock& air) {
 }
 
 // g with sum 1 that makes g' gram g least: gram g = (1, 1, ...), scaled. Empty if there is nothing. Gaussian elimination with pivots: the matrix
-// is tiny, and nearly singular once steps say nothing new; the diagonal is raised by the rounding of the floats it is made of.
+// is tiny, and nearly singular once steps say nothing new; the diagonal is raised by the rounding of the floats it is made of. A
+// combination that would magnify that rounding past 1e-4 gives way to the last step alone.
+constexpr double kGreatestSize = 1000;
 std::vector<double> leastCombination(std::vector<double> gram, std::size_t n) {
   std::vector<double> g(n, 1.0);
   for (std::size_t i = 0; i < n; ++i) gram[i * n + i] *= 1 + 1e-12;
@@ -77,8 +79,11 @@ std::vector<double> leastCombination(std::vector<double> gram, std::size_t n) {
   }
   double all = 0;
   for (std::size_t k = 0; k < n; ++k) all += g[k] /= gram[k * n + k];
-  if (!(std::abs(all) > 0)) return {};
-  for (double& v : g) v /= all;
+  double size = 0;
+  for (double& v : g) size += std::abs(v /= all);
+  if (size < kGreatestSize) return g;  // not for NaN either: all was 0
+  g.assign(n, 0.0);
+  g.back() = 1;
   return g;
 }
 
@@ -249,7 +254,8 @@ SkyField::Moments SkyField::extrapolate() {
       for (std::size_t k = 0; k < n; ++k) r += g[k] * steps_[k].change[p][c], value += g[k] * steps_[k].to[p][c];
       residual += weight[p] * r * r;
       norm += weight[p] > 0;
-      if (!(value >= first_[p][c])) continue;  // every order adds light: what leaves less than the first is none
+      // Where nothing was weighed the last step stands; and every order adds light: what leaves less than the first is none.
+      if (weight[p] == 0 || !(value >= first_[p][c])) continue;
       for (std::size_t i = p; i < count; i += lit) {
         value = 0;
         for (std::size_t k = 0; k < n; ++k) value += g[k] * steps_[k].to[i][c];
