@@ -21,6 +21,7 @@ import sky
 
 METHOD_VERSION = 1  # raise it when the reference's answers change on purpose
 SHARE = 1 / 3  # standard error over limit
+MAX_PATHS = 200_000_000  # of a ray: more than any has needed
 INDEX = os.path.join(sky.TRUTH, "truth.json")
 
 
@@ -65,7 +66,7 @@ def reference(welkin, group, rays, out, options):
 def all_orders(welkin, group, rays, out, threads, seed=1):
     """A rough pass says what matters; each ray is then traced as long as it needs, and again if that was not enough."""
     def trace(which, relative_error):
-        options = ["--relative-error", f"{relative_error:.3g}", "--seed", seed, *threads]
+        options = ["--relative-error", f"{relative_error:.3g}", "--seed", seed, "--max-paths", MAX_PATHS, *threads]
         return dict(zip(which, reference(welkin, group, [rays[i] for i in which], out, options)))
 
     everything = range(len(rays))
@@ -75,10 +76,12 @@ def all_orders(welkin, group, rays, out, threads, seed=1):
         limits = allowed(group, [rows[i] for i in everything])
         levels = {}
         for i in everything:
-            ratio = min((limit / e for limit, e in zip(limits[i], sky.values(rows[i], sky.STANDARD_ERROR)) if e > 0), default=1.0)
+            errors = sky.values(rows[i], sky.STANDARD_ERROR)
+            ratio = min((limit / e for limit, e in zip(limits[i], errors) if e > 0), default=1.0)
             if ratio < 1:
+                reached = max((e / value for e, value in zip(errors, sky.values(rows[i], sky.RADIANCE)) if value > 0), default=asked[i])
                 # Rays of similar need go together: a level is a power of the root of 2.
-                asked[i] = 2 ** (math.floor(2 * math.log2(asked[i] * min(0.95 * ratio, 0.8))) / 2)
+                asked[i] = 2 ** (math.floor(2 * math.log2(min(asked[i], reached) * min(0.95 * ratio, 0.8))) / 2)
                 levels.setdefault(asked[i], []).append(i)
         if not levels:
             return [rows[i] for i in everything]
