@@ -1,5 +1,5 @@
 #include "commands.h"
-#include "probe_csv.h"
+#include "welkin/app/probe_csv.h"
 #include "welkin/core/files.h"
 #include "welkin/core/log.h"
 #include "welkin/core/progress.h"

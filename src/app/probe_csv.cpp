@@ -1,4 +1,4 @@
-#include "probe_csv.h"
+#include "welkin/app/probe_csv.h"
 
 #include <fmt/format.h>
 

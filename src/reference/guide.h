@@ -19,12 +19,22 @@ class Guide {
   // Radiance of the ground, its albedo left out.
   Spectrum ground(double muSun) const;
 
+  // Directions at a place by the radiance that is expected from them: about the vertical, azimuth 0 towards the sun.
+  struct Direction {
+    double mu, azimuth_rad;  // zenith cosine; 0 to pi, on either side
+  };
+  Direction sampleDirection(double altitude_m, double muSun, int wavelength, double u, double v) const;  // u, v: two random numbers
+  // Density with which each wavelength would have drawn a direction, 1/sr.
+  Spectrum directionDensity(double altitude_m, double muSun, Direction direction) const;
+
  private:
   Spectrum at(const std::vector<Spectrum>& table, double altitude_m, double muSun) const;
-  std::vector<Spectrum> gathered(const Medium& medium, const std::vector<double>& altitudes_m) const;
+  std::vector<Spectrum> gathered(const Medium& medium, const std::vector<double>& altitudes_m);
+  const Spectrum* skyAt(double altitude_m, double muSun) const;
 
   double top_m_;
   std::vector<Spectrum> direct_, ambient_;
+  std::vector<Spectrum> sky_;  // running probabilities of the patches of the sphere of directions, for each point of the tables
 };
 
 }  // namespace welkin::reference

@@ -32,12 +32,12 @@ class PathDrawer {
     double altitude_m;
     glm::dvec3 up;
   };
-  void fill(PathSegment& segment, bool directCounts);
+  void fill(PathSegment& segment, bool directCounts, bool guided);
   Spectrum expected(double altitude_m, double muSun, bool directCounts) const;
   Spectrum expectedOfGround(double muSun, bool directCounts) const;
   Event drawEvent(const PathSegment& segment, int hero, PathNumbers& numbers);
   Spectrum sunAt(const Event& event, PathNumbers& numbers);
-  bool turn(const Event& event, int hero, PathNumbers& numbers);
+  bool turn(const Event& event, int hero, bool guided, PathNumbers& numbers);
 
   const Medium& medium_;
   const std::vector<double>& altitudes_m_;

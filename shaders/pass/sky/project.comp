@@ -9,6 +9,8 @@ layout(std430, binding = 2) writeonly buffer Moments { vec4 moments[]; };  // [m
 uniform ivec3 u_size;
 uniform int u_aboutVertical;
 
+const float kMostTaken = 0.9;
+
 void main() {
   int point = int(gl_GlobalInvocationID.x), points = u_size.x * u_size.y;
   if (point >= points) return;
@@ -21,6 +23,8 @@ void main() {
   for (int k = 0; k < u_size.z; ++k) {
     GatherDirection d = gatherDirection(u_air.params, directions[k], k >= u_aboutVertical, altitude, muSun);
     vec3 light = radiance[k * points + point].rgb * d.weight;
+    // What went straight on is taken off last. Where the sun stands in a bright rim it can be more than all: no light is less than none.
+    if (d.weight < 0.0) light = max(light, -kMostTaken / 0.28209479 * sums[0]);
     float y[kFieldCount] = harmonics(d.cosine);
     float turn[5] = azimuthal(d.mu, muSun, d.cosine);
     int i = 0;

@@ -13,7 +13,7 @@ void main() {
   ivec2 texel = ivec2(point % u_size.x, point / u_size.x);
   vec3 mean = max(moments[point].rgb, vec3(kDark));
   imageStore(u_field, ivec3(texel, 0), vec4(log(mean), 0.0));
-  for (int i = 1; i < kFieldCount; ++i) imageStore(u_field, ivec3(texel, i), vec4(moments[i * points + point].rgb / mean, 0.0));
+  for (int i = 1; i < kFieldCount; ++i) imageStore(u_field, ivec3(texel, i), vec4(mix(moments[i * points + point].rgb / mean, vec3(0.0), lessThanEqual(moments[point].rgb, vec3(kDark))), 0.0));
   for (int side = 0; side < 2; ++side) {
     vec3 light = moments[(kFieldCount + side) * points + point].rgb;
     imageStore(u_irradiance, texel + ivec2(0, side * u_size.y), vec4(log(max(light, vec3(kDark))), 0.0));

@@ -34,6 +34,7 @@ DirectionList directionList(const SkyModel& model, const AirBlock& air) {
     for (const QuadratureNode& node : gaussLegendre(side > 0 ? model.above : model.below))
       azimuths(model.azimuths, [&](double cosine, double weight) { list.all.emplace_back(side * node.x, cosine, node.weight * weight, 0); });
   list.aboutVertical = static_cast<int>(list.all.size());
+  std::vector<glm::vec4> straightOn;  // what a layer scatters straight on is in the sun's own light: taken off, last
   for (std::uint32_t i = 0; i < air.params.layerCount; ++i) {
     const shared::AirLayer& layer = air.layers[i];
     if (!SkyModel::peaked(layer.phase, layer.g)) continue;
@@ -51,8 +52,9 @@ DirectionList directionList(const SkyModel& model, const AirBlock& air) {
       });
     }
     for (auto d = first; d < list.all.size(); ++d) list.all[d].z /= float(total);  // no light is made or lost by the quadrature
-    if (layer.forward > 0) list.all.emplace_back(1, 1, -layer.forward, float(i));   // what goes straight on is in the sun's own light
+    if (layer.forward > 0) straightOn.emplace_back(1, 1, -layer.forward, float(i));
   }
+  list.all.insert(list.all.end(), straightOn.begin(), straightOn.end());
   return list;
 }
 

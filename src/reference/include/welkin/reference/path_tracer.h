@@ -12,7 +12,7 @@ enum class Light { Sun, Everywhere };
 
 struct PathSettings {
   int maxOrders = 0;                   // events at most, 0: any number
-  double relativeError = 0.003;        // stop when each standard error is at most this share of the radiance
+  double relativeError = 0.003;        // stop when each standard error is at most this share of the radiance, or 1e-12 / sr
   std::uint64_t maxPaths = 4'000'000;  // or after this many paths, rounded up to whole rounds
   std::uint64_t seed = 1;              // two seeds: two independent estimates
   unsigned threads = 1;                // 0: one a core; the estimate does not depend on it
@@ -31,7 +31,7 @@ class Guide;
 // over the density it was drawn with, so that no path is lost to space and none is biased; at each event the sun is seen through the
 // air in its way; the next direction comes from the phase functions there. All three wavelengths share a path, weighted by the mean of the
 // densities that each would have drawn it with (balance heuristic; Wilkie et al. 2014). Paths end by Russian roulette on
-// the light still expected.
+// what they still carry.
 class PathTracer {
  public:
   explicit PathTracer(const Medium& medium);  // keeps a reference
