@@ -15,9 +15,10 @@ void main() {
   int point = int(gl_GlobalInvocationID.x), points = u_size.x * u_size.y;
   if (point >= points) return;
   vec2 coord = vec2(point % u_size.x, point / u_size.x) / (vec2(u_size.xy) - 1.0);
-  float altitude = coordAltitude(u_air.params, coord.y), muSun = gatherSun(u_air.params, coord.x);
+  float altitude = coordAltitude(u_air.params, coord.y), muSun = sunCosine(u_air.params, coord.x);
   float sin2 = 1.0 - muSun * muSun, scale[5];
-  for (int m = 0; m < 5; ++m) scale[m] = m == 0 ? 1.0 : scale[m - 1] / sin2;
+  scale[0] = 1.0;
+  for (int m = 1; m < 5; ++m) scale[m] = sin2 < kLeastSin2 ? 0.0 : scale[m - 1] / sin2;
   vec3 sums[kFieldCount], up = vec3(0.0), down = vec3(0.0);
   for (int i = 0; i < kFieldCount; ++i) sums[i] = vec3(0.0);
   for (int k = 0; k < u_size.z; ++k) {
