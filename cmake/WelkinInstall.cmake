@@ -7,7 +7,7 @@ add_library(welkin_all INTERFACE)  # welkin::welkin is all that another program 
 set_target_properties(welkin_all PROPERTIES EXPORT_NAME welkin)
 target_link_libraries(welkin_all INTERFACE welkin_app)
 
-set(layers core shared physics clouds octree stream gpu render measure app)
+set(layers core shared physics clouds octree reference stream gpu render measure app)
 list(TRANSFORM layers PREPEND welkin_ OUTPUT_VARIABLE layer_targets)
 install(TARGETS ${layer_targets} welkin_all welkin_glad welkin_lodepng EXPORT welkinTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -15,6 +15,7 @@ vec3 groundAlbedoFrom(sampler2D map, vec3 normal, float radius_m, float pixel_m)
 // own. Below r = p / sqrt(3) the shape is a cone of the width of two pixels that keeps the disc's light: 0.94 to 1.12 of it wherever it
 // falls between the pixels. Limb darkening goes out with it, and is stretched so that the rim's pixels share in it (light within 3 %).
 vec3 sunDisc(vec3 dir, vec3 toSun, float radius_rad, float pixel_rad, vec3 irradiance) {
+  if (radius_rad <= 0.0) return vec3(0.0);  // a point has no disc to draw
   float angle = 2.0 * asin(min(0.5 * length(dir - toSun), 1.0));  // the chord does not cancel as the cosine would
   float r2 = radius_rad * radius_rad, p2 = pixel_rad * pixel_rad, drawn2 = max(r2, p2 / 3.0);
   float cover = clamp((sqrt(drawn2 - p2 / 12.0) - angle) / pixel_rad + 0.5, 0.0, 1.0);

@@ -91,6 +91,7 @@ int runProgram(int argc, const char* const* argv) {
   addBench(app, action);
   addInfo(app, action);
   addCompare(app, action);
+  addProbe(app, action);
   initLog(false);
   try {
     app.parse(argc, argv);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace welkin {
@@ -27,7 +28,25 @@ Result<void> setProfile(shared::AirLayer& out, const AirLayer& in) {
   return {};
 }
 
-Result<shared::AirLayer> layerOf(const AirLayer& in) {
+// Legendre moments of phase functions, chi_l = integral of p P_l over the sphere, and the part `forward` of a peaked one that series up
+// to `degree` cannot hold: it counts as not scattered (delta-M, Wiscombe 1977). Cornette-Shanks is 3/(2 (2 + g^2)) (1 + c^2) times
+// Henyey-Greenstein, whose moments are g^l, and c P_l = ((l + 1) P_l+1 + l P_l-1) / (2 l + 1).
+void setMoments(shared::AirLayer& out, const AirLayer& in, int degree) {
+  constexpr int kMoments = 16;
+  const auto hg = [&](int l) { return std::pow(in.g, std::abs(l)); };
+  const auto timesCosine = [](int l, auto&& moment) { return ((l + 1) * moment(l + 1) + (l > 0 ? l * moment(l - 1) : 0.0)) / (2 * l + 1); };
+  const auto moment = [&](int l) -> double {
+    if (in.phase == PhaseType::Isotropic) return l == 0;
+    if (in.phase == PhaseType::Rayleigh) return l == 0 ? 1 : l == 2 ? 0.1 : 0;
+    if (in.phase == PhaseType::HenyeyGreenstein) return hg(l);
+    const auto once = [&](int k) { return timesCosine(k, hg); };
+    return 1.5 / (2 + in.g * in.g) * (hg(l) + timesCosine(l, once));
+  };
+  for (int l = 0; l < kMoments; ++l) out.moments[l / 4][l % 4] = static_cast<float>(moment(l));
+  out.forward = degree > 0 && degree + 1 < kMoments ? static_cast<float>(std::max(moment(degree + 1), 0.0)) : 0.0f;
+}
+
+Result<shared::AirLayer> layerOf(const AirLayer& in, int degree) {
   shared::AirLayer out{};
   if (auto r = setProfile(out, in); !r) return r.error();
   for (std::size_t i = 0; i < 3; ++i)
@@ -38,6 +57,7 @@ Result<shared::AirLayer> layerOf(const AirLayer& in) {
   out.scatteringR = f(in.scattering_per_m[0]), out.scatteringG = f(in.scattering_per_m[1]), out.scatteringB = f(in.scattering_per_m[2]);
   out.absorptionR = f(in.absorption_per_m[0]), out.absorptionG = f(in.absorption_per_m[1]), out.absorptionB = f(in.absorption_per_m[2]);
   out.g = f(in.g);
+  setMoments(out, in, degree);
   switch (in.phase) {
     case PhaseType::Rayleigh:
       out.phase = shared::kPhaseRayleigh;
@@ -55,13 +75,20 @@ Result<shared::AirLayer> layerOf(const AirLayer& in) {
   return out;
 }
 
+double thickness_m(const AirLayer& layer) {
+  if (const auto* e = std::get_if<ExponentialProfile>(&layer.profile)) return e->scaleHeight_m;
+  if (const auto* t = std::get_if<TentProfile>(&layer.profile)) return t->halfWidth_m;
+  const auto& u = std::get<UniformProfile>(layer.profile);
+  return u.top_m - u.base_m;
+}
+
 bool peaked(const shared::AirLayer& l) {
   return (l.phase == shared::kPhaseCornetteShanks || l.phase == shared::kPhaseHenyeyGreenstein) && std::abs(l.g) > 0.3f;
 }
 
 }  // namespace
 
-Result<shared::AirBlock> airBlock(const Scene& scene) {
+Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
   if (!scene.atmosphere) return Error{"the scene has no atmosphere"};
   const Atmosphere& atmosphere = *scene.atmosphere;
   if (atmosphere.layers.size() > shared::kMaxAirLayers)
@@ -84,9 +111,20 @@ Result<shared::AirBlock> airBlock(const Scene& scene) {
   p.albedoR = static_cast<float>(scene.planet.albedo[0]);
   p.albedoG = static_cast<float>(scene.planet.albedo[1]);
   p.albedoB = static_cast<float>(scene.planet.albedo[2]);
+  p.sunCos = std::cos(p.sunRadius_rad);
+  p.sunSin = std::sin(p.sunRadius_rad);
+  double scale_m = atmosphere.top_m;
+  for (const AirLayer& layer : atmosphere.layers) scale_m = std::min(scale_m, thickness_m(layer));
+  p.altitudeScale_m = static_cast<float>(scale_m);
+  p.altitudeNorm = static_cast<float>(1 / std::log1p(atmosphere.top_m / scale_m));
+  // A point sees light that was scattered once while the sun is less than twice the dip of the shell's horizon below its own; three
+  // times leaves room for higher orders, of which four dips away nothing is left.
+  const double dip = std::acos(scene.planet.radius_m / (scene.planet.radius_m + atmosphere.top_m));
+  p.sunNight = static_cast<float>(std::sin(std::min(3 * dip, std::numbers::pi / 2)));
+  p.sunBend = 3;
   float strongest = 0;
   for (std::uint32_t i = 0; i < p.layerCount; ++i) {
-    auto layer = layerOf(atmosphere.layers[i]);
+    auto layer = layerOf(atmosphere.layers[i], degree);
     if (!layer) return layer.error();
     block.layers[i] = *layer;
     if (!peaked(*layer) || layer->scatteringG <= strongest) continue;

@@ -96,7 +96,7 @@ struct Reader {
     p.object({"irradiance", "angular_radius_rad", "direction", "latitude_deg", "longitude_deg", "utc"});
     Sun out;
     if (p.has("irradiance")) out.irradiance = p.at("irradiance").spectrum({0, 1e9});
-    out.angularRadius_rad = p.numberOr("angular_radius_rad", out.angularRadius_rad, above(0, 0.5));
+    out.angularRadius_rad = p.numberOr("angular_radius_rad", out.angularRadius_rad, {0, 0.5});
     const bool place = p.has("latitude_deg") || p.has("longitude_deg");
     if (int(p.has("direction")) + int(place) + int(p.has("utc")) > 1)
       p.failPlain("expected only one of: direction, latitude_deg and longitude_deg, utc");

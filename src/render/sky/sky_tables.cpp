@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "welkin/render/sky/sky_field.h"
 #include "welkin/physics/air.h"
 #include "welkin/shared/bindings.glsl.h"
 
@@ -14,13 +15,22 @@ namespace {
 
 using namespace shared;
 
-gpu::Defines layerDefines(const AirBlock& block) {
-  gpu::Defines defines{{"AIR_LAYERS", std::to_string(std::max(block.params.layerCount, 1u))}};
-  defines.emplace_back("AIR_PEAK_LAYER", std::to_string(static_cast<int>(block.params.peakLayer)));
+gpu::Defines layerDefines(const AirBlock& block, const SkyModel& model) {
+  gpu::Defines defines{{"AIR_LAYERS", std::to_string(std::max(block.params.layerCount, 1u))},
+                       {"AIR_PEAK_LAYER", std::to_string(static_cast<int>(block.params.peakLayer))},
+                       {"FIELD_DEGREE", std::to_string(model.degree)},
+                       {"FIELD_ZONAL", std::to_string(model.zonal)}};
+  unsigned peaked = 0;
   for (std::size_t i = 0; i < kMaxAirLayers; ++i) {
-    defines.emplace_back("AIR_PROFILE_" + std::to_string(i), std::to_string(block.layers[i].profile) + "u");
-    defines.emplace_back("AIR_PHASE_" + std::to_string(i), std::to_string(block.layers[i].phase) + "u");
+    const shared::AirLayer& layer = block.layers[i];
+    const bool scatters = i < block.params.layerCount && layer.scatteringR + layer.scatteringG + layer.scatteringB > 0;
+    const int degree = layer.phase == kPhaseIsotropic ? 0 : layer.phase == kPhaseRayleigh ? 2 : model.zonal;
+    if (i < block.params.layerCount && SkyModel::peaked(layer.phase, layer.g)) peaked |= 1u << i;
+    defines.emplace_back("AIR_PROFILE_" + std::to_string(i), std::to_string(layer.profile) + "u");
+    defines.emplace_back("AIR_PHASE_" + std::to_string(i), std::to_string(layer.phase) + "u");
+    defines.emplace_back("AIR_DEGREE_" + std::to_string(i), std::to_string(scatters ? degree : -1));
   }
+  defines.emplace_back("AIR_PEAKED", std::to_string(peaked));
   return defines;
 }
 
@@ -28,19 +38,44 @@ void tablesWritten() { glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_
 
 }  // namespace
 
-Result<SkyTables> SkyTables::create(gpu::MemoryAccount& account, const Scene& scene) {
-  auto block = airBlock(scene);
+Result<SkyTables> SkyTables::create(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
+  auto tables = begin(account, scene, orders);
+  if (!tables) return tables.error();
+  while (tables->advance()) {}
+  return tables;
+}
+
+Result<SkyTables> SkyTables::begin(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
+  auto model = skyModel(scene);
+  if (!model) return model.error();
+  if (orders == SkyOrders::First) model->maxOrders = 1, model->degree = model->zonal = 0;
+  auto block = airBlock(scene, model->zonal);
   if (!block) return block.error();
   SkyTables tables;
+  tables.model_ = *model;
   tables.block_ = *block;
-  double scale_m = 8000;  // Rayleigh air, if no layer says anything else
-  for (const auto& layer : scene.atmosphere->layers)
-    if (const auto* e = std::get_if<ExponentialProfile>(&layer.profile)) scale_m = std::min(scale_m, e->scaleHeight_m);
-  tables.altitudeStep_m_ = scale_m / 1000;
+  tables.altitudeStep_m_ = block->params.altitudeScale_m / 1000;
+  tables.defines_ = layerDefines(*block, *model);
   if (auto r = tables.allocate(account); !r) return r.error();
+  auto field = SkyField::create(account, *model, *block, tables.defines_);
+  if (!field) return field.error();
+  tables.field_ = std::make_unique<SkyField>(std::move(*field));
   if (auto r = tables.compute(); !r) return r.error();
   return tables;
 }
+
+bool SkyTables::advance() {
+  params_.bind(GL_UNIFORM_BUFFER, WK_AIR_PARAMS_BINDING);
+  sunDepth().bind(WK_SKY_TRANSMITTANCE_UNIT);
+  const bool more = field_->advance();
+  keyAltitude_m_ = -1;  // the view tables show less light than there is
+  return more;
+}
+
+SkyTables::SkyTables() = default;
+SkyTables::SkyTables(SkyTables&&) noexcept = default;
+SkyTables& SkyTables::operator=(SkyTables&&) noexcept = default;
+SkyTables::~SkyTables() = default;
 
 Result<void> SkyTables::allocate(gpu::MemoryAccount& account) {
   const auto make = [&](gpu::Texture& out, GLenum format, std::uint32_t width, std::uint32_t height, std::uint32_t depth) -> Result<void> {
@@ -54,11 +89,13 @@ Result<void> SkyTables::allocate(gpu::MemoryAccount& account) {
     return {};
   };
   const std::uint32_t view = kViewGroundTexels + kViewSkyTexels;
-  if (auto r = make(transmittance_, GL_RGBA32F, kTransmittanceWidth, kTransmittanceHeight, 1); !r) return r;
-  if (auto r = make(multiple_, GL_RGBA32F, kSunTexels, kAltitudeTexels, 1); !r) return r;
-  if (auto r = make(irradiance_, GL_RGBA32F, kSunTexels, 2 * kAltitudeTexels, 1); !r) return r;
+  if (auto r = make(pointDepth_, GL_RGBA32F, kTransmittanceWidth, kTransmittanceHeight, 1); !r) return r;
+  if (block_.params.sunRadius_rad > 0)
+    if (auto r = make(discDepth_, GL_RGBA32F, kTransmittanceWidth, kTransmittanceHeight, 1); !r) return r;
   if (auto r = make(scatter_, GL_RGBA16F, view, kViewAzimuths, 2 * kViewSlices); !r) return r;
   if (auto r = make(depth_, GL_RGBA16F, view, kViewSlices, 1); !r) return r;
+  if (model_.diffuse())
+    if (auto r = make(diffuse_, GL_RGBA32F, kDiffuseGroundTexels + kDiffuseSkyTexels, kDiffuseAzimuths, kDiffuseSlices); !r) return r;
   auto buffer = gpu::Buffer::create(account, "sky", sizeof(AirBlock));
   if (!buffer) return buffer.error();
   params_ = std::move(*buffer);
@@ -67,31 +104,40 @@ Result<void> SkyTables::allocate(gpu::MemoryAccount& account) {
 }
 
 Result<void> SkyTables::compute() {
-  const gpu::Defines defines = layerDefines(block_);
-  // One dispatch for each value of `facing`.
-  const auto run = [&](const char* path, std::initializer_list<float> facing, const gpu::Texture& target, unsigned x,
-                       unsigned y) -> Result<void> {
-    auto program = gpu::Program::compute(path, defines);
+  const auto run = [&](const char* path, const gpu::Texture& target) -> Result<void> {
+    auto program = gpu::Program::compute(path, defines_);
     if (!program) return program.error();
     target.bindImage(0, GL_WRITE_ONLY);
-    for (const float f : facing) {
-      program->set("u_facing", f);
-      program->dispatch(x, y);
-      tablesWritten();
-    }
+    program->dispatch(kTransmittanceWidth / 8, kTransmittanceHeight / 8);
+    tablesWritten();
     return {};
   };
   params_.bind(GL_UNIFORM_BUFFER, WK_AIR_PARAMS_BINDING);
-  transmittance_.bind(WK_SKY_TRANSMITTANCE_UNIT);
-  irradiance_.bind(WK_SKY_IRRADIANCE_UNIT);
-  multiple_.bind(WK_SKY_VIEW_TRANSMITTANCE_UNIT);  // read while tables are made, before anybody looks along a view
-  if (auto r = run("pass/sky/transmittance.comp", {0.0f}, transmittance_, kTransmittanceWidth / 8, kTransmittanceHeight / 8); !r) return r;
-  if (auto r = run("pass/sky/multiple.comp", {0.0f}, multiple_, kSunTexels / 8, kAltitudeTexels / 4); !r) return r;
-  if (auto r = run("pass/sky/irradiance.comp", {1.0f, -1.0f}, irradiance_, kSunTexels / 8, kAltitudeTexels / 4); !r) return r;
+  if (auto r = run("pass/sky/transmittance.comp", pointDepth_); !r) return r;
+  pointDepth_.bind(WK_SKY_TRANSMITTANCE_UNIT);
+  if (discDepth_.id() != 0)
+    if (auto r = run("pass/sky/sunlight.comp", discDepth_); !r) return r;
+  gpu::Defines defines = defines_;
+  defines.insert(defines.end(), {{"SINGLE", "1"}, {"DIFFUSE", "0"}, {"VIEW_DIFFUSE", model_.diffuse() ? "1" : "0"}});
   auto view = gpu::Program::compute("pass/sky/view.comp", defines);
   if (!view) return view.error();
   viewProgram_ = std::move(*view);
+  if (!model_.diffuse()) return {};
+  defines = defines_;
+  defines.insert(defines.end(), {{"SINGLE", "0"}, {"DIFFUSE", "1"},
+                                 {"READ_DEGREE", std::to_string(std::min(model_.degree, 2))},
+                                 {"READ_ZONAL", std::to_string(std::min(model_.zonal, 6))}});
+  auto diffuse = gpu::Program::compute("pass/sky/view_diffuse.comp", defines);
+  if (!diffuse) return diffuse.error();
+  diffuseProgram_ = std::move(*diffuse);
   return {};
+}
+
+gpu::Defines SkyTables::drawDefines() const {
+  gpu::Defines defines = defines_;
+  defines.emplace_back("SINGLE", "1");
+  defines.emplace_back("DIFFUSE", model_.diffuse() ? "1" : "0");
+  return defines;
 }
 
 bool SkyTables::updateView(const CameraBlock& camera, glm::dvec3 toSun) {
@@ -116,8 +162,14 @@ bool SkyTables::updateView(const CameraBlock& camera, glm::dvec3 toSun) {
     const double c = std::clamp(keyCosSun, -1.0, 1.0);
     rounded.view = airViewFrame(block_.params, camera.forward.w + made, made, up, up * c + side * std::sqrt(1 - c * c));
     params_.upload(0, std::as_bytes(std::span(&rounded, 1)));
-    transmittance_.bind(WK_SKY_TRANSMITTANCE_UNIT);
-    multiple_.bind(WK_SKY_VIEW_TRANSMITTANCE_UNIT);
+    sunDepth().bind(WK_SKY_TRANSMITTANCE_UNIT);
+    field_->bind();
+    if (model_.diffuse()) {
+      diffuse_.bindImage(0, GL_WRITE_ONLY);
+      diffuseProgram_.dispatch((kDiffuseGroundTexels + kDiffuseSkyTexels) / 8, kDiffuseAzimuths / 8);
+      tablesWritten();
+      diffuse_.bind(WK_SKY_VIEW_SCATTER_UNIT);
+    }
     scatter_.bindImage(0, GL_WRITE_ONLY);
     depth_.bindImage(1, GL_WRITE_ONLY);
     viewProgram_.dispatch((kViewGroundTexels + kViewSkyTexels) / 8, kViewAzimuths / 4);
@@ -130,14 +182,14 @@ bool SkyTables::updateView(const CameraBlock& camera, glm::dvec3 toSun) {
 void SkyTables::bind() const {
   params_.bind(GL_UNIFORM_BUFFER, WK_AIR_PARAMS_BINDING);
   params_.bind(GL_SHADER_STORAGE_BUFFER, WK_AIR_PARAMS_BINDING);
-  transmittance_.bind(WK_SKY_TRANSMITTANCE_UNIT);
-  irradiance_.bind(WK_SKY_IRRADIANCE_UNIT);
+  sunDepth().bind(WK_SKY_TRANSMITTANCE_UNIT);
+  field_->bind();
   scatter_.bind(WK_SKY_VIEW_SCATTER_UNIT);
   depth_.bind(WK_SKY_VIEW_TRANSMITTANCE_UNIT);
 }
 
 std::size_t SkyTables::bytes() const {
-  return params_.bytes() + transmittance_.bytes() + multiple_.bytes() + irradiance_.bytes() + scatter_.bytes() + depth_.bytes();
+  return params_.bytes() + pointDepth_.bytes() + discDepth_.bytes() + field_->bytes() + diffuse_.bytes() + scatter_.bytes() + depth_.bytes();
 }
 
 }  // namespace welkin

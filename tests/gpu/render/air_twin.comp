@@ -21,7 +21,7 @@ void main() {
   answers[o + 6u] = transmittanceCoord(p, x.x, abs(x.y)).x;
   answers[o + 7u] = viewCoord(u_air.view, x.y, x.y < u_air.view.muHorizon);
   answers[o + 8u] = airSliceOf(2.0 * x.z - 1.0, x.w);
-  answers[o + 9u] = sunCoord(x.y);
+  answers[o + 9u] = sunCoord(p, x.y);
   answers[o + 10u] = acesFilmic(vec3(4.0 * x.z, x.w, x.w * x.z)).x;
   answers[o + 11u] = srgbEncode(x.z);
   answers[o + 12u] = pixelDither(uint(x.x), uint(1000.0 * x.z));

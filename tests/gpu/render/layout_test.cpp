@@ -148,7 +148,8 @@ const std::map<std::string, BlockLayout>& blocks() {
          AT("u_air.", AirBlock, params.peakLayer), AT("u_air.", AirBlock, params.peakPhase), AT("u_air.", AirBlock, view.upX),
          AT("u_air.", AirBlock, view.muHorizon), AT("u_air.", AirBlock, view.skyEnd), AT("u_air.", AirBlock, view.anchorAltitude_m),
          AT("u_air.", AirBlock, view.anchorOverCentre), AT("u_air.", AirBlock, layers[0].a), AT("u_air.", AirBlock, layers[0].profile),
-         AT("u_air.", AirBlock, layers[5].g)},
+         AT("u_air.", AirBlock, params.sunNight), AT("u_air.", AirBlock, params.sunSin), AT("u_air.", AirBlock, layers[0].forward),
+         AT("u_air.", AirBlock, layers[0].moments[0]), AT("u_air.", AirBlock, layers[5].g)},
         sizeof(AirBlock),
         ""}},
   };

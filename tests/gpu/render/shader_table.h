@@ -17,12 +17,17 @@ struct ShaderVariant {
   }
 };
 
-// Profiles and phases of an atmosphere: how many layers, which is too sharp for tables, one kind of each in turn.
+// Profiles and phases of an atmosphere: how many layers, which is too sharp for tables, one kind of each in turn; and how much of the
+// diffuse light's series is tabulated.
 inline gpu::Defines airDefines(int layers, int peak) {
-  gpu::Defines defines{{"AIR_LAYERS", std::to_string(layers)}, {"AIR_PEAK_LAYER", std::to_string(peak)}};
+  const char* degree = peak < 0 ? "2" : "4";
+  const char* zonal = peak < 0 ? "2" : "12";
+  gpu::Defines defines{{"AIR_LAYERS", std::to_string(layers)}, {"AIR_PEAK_LAYER", std::to_string(peak)}, {"FIELD_DEGREE", degree},
+                       {"FIELD_ZONAL", zonal}, {"AIR_PEAKED", std::to_string(peak < 0 ? 0 : 1 << peak)}};
   for (int i = 0; i < 6; ++i) {
     defines.emplace_back("AIR_PROFILE_" + std::to_string(i), std::to_string(i % 3) + "u");
     defines.emplace_back("AIR_PHASE_" + std::to_string(i), std::to_string((i + peak + 4) % 4) + "u");
+    defines.emplace_back("AIR_DEGREE_" + std::to_string(i), i == 2 ? "-1" : i == peak ? zonal : "2");
   }
   return defines;
 }
@@ -39,9 +44,21 @@ inline std::vector<ShaderVariant> shaderTable() {
       for (const char* air : {"0", "1"})
         table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"PIXELS", pixels}}});
   }
-  for (const char* pass : {"transmittance", "multiple", "irradiance", "view"})
-    for (const auto& [layers, peak] : {std::pair{1, -1}, {3, 1}, {6, 5}})
-      table.push_back({std::string("pass/sky/") + pass + ".comp", airDefines(layers, peak)});
+  for (const auto& [layers, peak] : {std::pair{1, -1}, {3, 1}, {6, 5}}) {
+    const auto sky = [&, layers = layers, peak = peak](const char* pass, gpu::Defines more = {}) {
+      gpu::Defines defines = airDefines(layers, peak);
+      defines.insert(defines.end(), more.begin(), more.end());
+      table.push_back({std::string("pass/sky/") + pass + ".comp", defines});
+    };
+    for (const char* pass : {"transmittance", "sunlight", "project", "store"}) sky(pass, {{"SINGLE", "0"}, {"DIFFUSE", "0"}});
+    sky("gather", {{"SINGLE", "1"}, {"DIFFUSE", "0"}, {"PIECES", "8"}});
+    sky("gather", {{"SINGLE", "0"}, {"DIFFUSE", "1"}, {"PIECES", "8"}});
+    sky("view_diffuse", {{"SINGLE", "0"}, {"DIFFUSE", "1"}, {"READ_DEGREE", "2"}, {"READ_ZONAL", peak < 0 ? "2" : "6"}});
+    for (const char* diffuse : {"0", "1"}) {
+      sky("view", {{"SINGLE", "1"}, {"DIFFUSE", "0"}, {"VIEW_DIFFUSE", diffuse}});
+      sky("probe", {{"SINGLE", "1"}, {"DIFFUSE", diffuse}, {"PIECES", "6"}, {"STRETCHES", "16"}});
+    }
+  }
   for (int bits = 0; bits < 16; ++bits) {
     const auto on = [&](int bit) { return std::string(bits >> bit & 1 ? "1" : "0"); };
     const gpu::Defines scene{{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_ALBEDO_MAP", on(3)}};

@@ -9,7 +9,9 @@ namespace welkin {
 // Lengths in metres, coefficients in 1/m at 680, 550, 440 nm. No sun: its irradiance is 0. The view frame is left zero. Fails in one line
 // without an atmosphere, with more than six layers, or with values out of range. The layer with the sharpest phase function
 // (Henyey-Greenstein or Cornette-Shanks with |g| > 0.3; of several the one that scatters most) becomes `peakLayer`.
-Result<shared::AirBlock> airBlock(const Scene& scene);
+// `degree`: of the harmonics that will hold the diffuse light (sky_model.h); what a phase function has beyond them counts as straight on
+// (`forward`); 0: nothing does, extinction is physical.
+Result<shared::AirBlock> airBlock(const Scene& scene, int degree = 0);
 
 // View frame for a camera at this distance from the centre and altitude above the ground (doubles: their difference is exact),
 // camera's radial direction and direction towards the sun, both unit, planet frame.

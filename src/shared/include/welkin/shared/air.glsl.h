@@ -15,7 +15,9 @@ struct AirLayer {
   float scatteringR, scatteringG, scatteringB, a;  // 1/m where the profile is 1; 680, 550, 440 nm
   float absorptionR, absorptionG, absorptionB, b;
   uint profile, phase;
-  float g, spare;
+  float g;
+  float forward;                         // part of the scattering that many orders count as going straight on (air.cpp: setMoments)
+  vec4 moments[4];                       // Legendre moments 0..15 of the phase function; 0 is 1
 };
 
 struct AirParams {
@@ -26,7 +28,10 @@ struct AirParams {
   float albedoR, albedoG, albedoB;       // ground, mean
   uint peakLayer;                        // the layer whose phase function is too sharp to be stored in tables, or kNoLayer
   uint peakPhase;
-  float spare0, spare1, spare2;
+  float altitudeScale_m, altitudeNorm;   // of altitudeCoord
+  float sunBend, sunNight;               // of sunCoord
+  float sunCos, sunSin;                  // of the sun's angular radius
+  float spare;
 };
 
 // What look-ups need of the camera the view tables were made for. The anchor is the camera, or outside the shell the ray's entry.
@@ -54,6 +59,9 @@ WK_FN vec3 layerExtinction(AirLayer l) {
   return vec3(l.scatteringR + l.absorptionR, l.scatteringG + l.absorptionG, l.scatteringB + l.absorptionB);
 }
 
+// What is left of it where light scattered straight on counts as not scattered.
+WK_FN vec3 layerReducedExtinction(AirLayer l) { return layerExtinction(l) - layerScattering(l) * l.forward; }
+
 // Density of a layer as a fraction of its reference value.
 WK_FN float layerDensity(AirLayer l, float altitude_m) {
   float h = max(altitude_m, F(0.0));
@@ -62,9 +70,11 @@ WK_FN float layerDensity(AirLayer l, float altitude_m) {
   return h >= l.a && h <= l.b ? F(1.0) : F(0.0);
 }
 
+// Reduced extinction of all layers, 1/m.
 WK_FN vec3 airExtinction(AirBlock air, float altitude_m) {
   vec3 sum = vec3(F(0.0));
-  for (uint i = 0u; i < air.params.layerCount; ++i) sum += layerExtinction(air.layers[i]) * layerDensity(air.layers[i], altitude_m);
+  for (uint i = 0u; i < air.params.layerCount; ++i)
+    sum += layerReducedExtinction(air.layers[i]) * layerDensity(air.layers[i], altitude_m);
   return sum;
 }
 
@@ -100,9 +110,15 @@ WK_FN float sunVisible(AirParams p, float altitude_m, float muSun) {
   float above_rad = (muSun - horizonCosine(p.radius_m, altitude_m)) * r / p.radius_m;
   if (p.sunRadius_rad <= F(0.0)) return above_rad > F(0.0) ? F(1.0) : F(0.0);
   float x = clamp(above_rad / p.sunRadius_rad, F(-1.0), F(1.0));
-  float x2 = x * x;
-  // The disc's area above a chord by an odd quintic: exact value and slope in the middle and at the rims, within 0.013 between.
-  return max(F(0.5) + x * (F(0.6366198) - x2 * (F(0.0232395) + F(0.1133803) * x2)), F(0.0));  // rounding may leave -3e-8
+  // A disc's segment: (acos y - y sqrt(1 - y^2)) / pi = (1 - y)^(3/2) times a smooth function; its quadratic fit is within 3e-5.
+  float rest = F(1.0) - abs(x);
+  float segment = rest * sqrt(rest) * (F(0.5) + abs(x) * (F(0.1126894) - F(0.0133469) * abs(x)));
+  return x > F(0.0) ? F(1.0) - segment : segment;
+}
+
+// Cosine of the zenith angle of the sun disc's upper edge.
+WK_FN float sunEdgeCosine(AirParams p, float muSun) {
+  return muSun * p.sunCos + sqrt(max(F(1.0) - muSun * muSun, F(0.0))) * p.sunSin;
 }
 
 // Optical depth from altitude h along mu (not into the ground) over `length_m`, starting densely: two-point Gauss quadrature on
@@ -132,34 +148,41 @@ WK_FN vec3 airOpticalDepthToTop(AirBlock air, float altitude_m, float mu, uint p
 
 // --- Table coordinates, all 0..1 ---
 
-// Optical depth to the top (mapping of Bruneton and Neyret 2008): x along the distance to the top, y along the distance to the horizon.
+// Altitude, even in its logarithm well above altitudeScale_m (the thinnest layer's), linear below.
+WK_FN float altitudeCoord(AirParams p, float altitude_m) {
+  return clamp(log(F(1.0) + max(altitude_m, F(0.0)) / p.altitudeScale_m) * p.altitudeNorm, F(0.0), F(1.0));
+}
+WK_FN float coordAltitude(AirParams p, float coord) { return min(p.altitudeScale_m * (exp(coord / p.altitudeNorm) - F(1.0)), p.top_m); }
+
+// Sun's zenith cosine: a part kNightTexels of the texels from -sunNight (below it is no light) to 0, the others up to 1; on each side
+// 1 + sunBend times as dense at the horizon as on average.
+WK_CONST float kNightTexels = F(0.4);
+WK_FN float sunCoord(AirParams p, float mu) {
+  float side = mu < F(0.0) ? max(mu / p.sunNight, F(-1.0)) : mu;
+  return kNightTexels + (F(1.0) + p.sunBend) * side / (F(1.0) + p.sunBend * abs(side)) * (mu < F(0.0) ? kNightTexels : F(1.0) - kNightTexels);
+}
+WK_FN float sunCosine(AirParams p, float coord) {
+  float side = coord < kNightTexels ? coord / kNightTexels - F(1.0) : (coord - kNightTexels) / (F(1.0) - kNightTexels);
+  float mu = side / (F(1.0) + p.sunBend * (F(1.0) - abs(side)));
+  return coord < kNightTexels ? mu * p.sunNight : mu;
+}
+
+// Optical depth to the top: x along the distance to the top (Bruneton and Neyret 2008); y the square root of the altitude's
+// coordinate, because along the horizon the depth grows with the square root of the altitude.
 WK_FN vec2 transmittanceCoord(AirParams p, float altitude_m, float mu) {
-  float shell = horizonDistance(p.radius_m, p.top_m);
-  float rho = horizonDistance(p.radius_m, altitude_m);
   float dMin = p.top_m - altitude_m;
-  float dMax = rho + shell;
-  return vec2((distanceToTop(p, altitude_m, mu) - dMin) / (dMax - dMin), rho / shell);
+  float dMax = horizonDistance(p.radius_m, altitude_m) + horizonDistance(p.radius_m, p.top_m);
+  return vec2((distanceToTop(p, altitude_m, mu) - dMin) / (dMax - dMin), sqrt(altitudeCoord(p, altitude_m)));
 }
 // Inverse: altitude in m, zenith cosine.
 WK_FN vec2 transmittancePoint(AirParams p, vec2 coord) {
-  float shell = horizonDistance(p.radius_m, p.top_m);
-  float rho = coord.y * shell;
-  float r = sqrt(p.radius_m * p.radius_m + rho * rho);
-  float h = rho * rho / (r + p.radius_m);
+  float h = coordAltitude(p, coord.y * coord.y);
   float dMin = p.top_m - h;
-  float d = dMin + coord.x * (rho + shell - dMin);
-  float mu = d > F(0.0) ? ((p.top_m - h) * (F(2.0) * p.radius_m + p.top_m + h) - d * d) / (F(2.0) * r * d) : F(1.0);
+  float dMax = horizonDistance(p.radius_m, h) + horizonDistance(p.radius_m, p.top_m);
+  float d = dMin + coord.x * (dMax - dMin);
+  float mu = d > F(0.0) ? ((p.top_m - h) * (F(2.0) * p.radius_m + p.top_m + h) - d * d) / (F(2.0) * (p.radius_m + h) * d) : F(1.0);
   return vec2(h, clamp(mu, F(-1.0), F(1.0)));
 }
-
-// Sun's zenith cosine -1..1, five times as dense at the horizon as on average; and altitude, densest at the ground.
-WK_FN float sunCoord(float mu) { return F(0.5) + F(2.5) * mu / (F(1.0) + F(4.0) * abs(mu)); }
-WK_FN float sunCosine(float coord) {
-  float v = F(2.0) * coord - F(1.0);
-  return v / (F(5.0) - F(4.0) * abs(v));
-}
-WK_FN float altitudeCoord(AirParams p, float altitude_m) { return sqrt(clamp(altitude_m / p.top_m, F(0.0), F(1.0))); }
-WK_FN float coordAltitude(AirParams p, float coord) { return coord * coord * p.top_m; }
 
 // View direction at the anchor. e = sqrt(1 - |cos|) is the chord of the angle from the zenith (or nadir, below the horizon): nearly
 // uniform in angle; the square root of the chord's distance from the horizon's makes the texels quadratically dense there.
@@ -193,10 +216,13 @@ WK_FN float texelCoord(float x, float n) { return (F(0.5) + x * (n - F(1.0))) / 
 
 // Sizes of the tables.
 WK_CONST uint kTransmittanceWidth = 256u, kTransmittanceHeight = 64u;
-WK_CONST uint kSunTexels = 64u, kAltitudeTexels = 32u;                    // multiple scattering; irradiance has two of them
 WK_CONST uint kViewGroundTexels = 48u, kViewSkyTexels = 112u;             // view direction below and above the horizon
 WK_CONST uint kViewAzimuths = 24u, kViewSlices = 17u;
+WK_CONST uint kDiffuseGroundTexels = 16u, kDiffuseSkyTexels = 32u;        // the same for diffuse light alone
+WK_CONST uint kDiffuseAzimuths = 16u, kDiffuseSlices = 9u;
 
-WK_CONST float kRateLength_m = F(100000.0);  // tables store in-scatter and optical depth per this length: fits 16-bit floats
+WK_CONST float kNoDepth = F(1e-12);  // optical depth that stands for none where logarithms are stored
+WK_CONST float kRateLength_m = F(100000.0);  // of optical depth per length in tables: fits 16-bit floats
+WK_CONST float kSourceScale = F(4096.0);     // of sources over extinction, which are at most 1: 16-bit floats hold 1.5e-8 to 16
 
 WK_END

@@ -25,5 +25,6 @@
 #define WK_CLOUD_LIGHT_UNIT 14     // RGBA16F: cloud radiance towards the camera without the air between; a: cloud transmittance
 #define WK_CLOUD_AUX_UNIT 15       // RG32F: transmittance-weighted cloud distance [m]; sun visibility of the ground point, 0..1
 #define WK_ALBEDO_UNIT 16
-#define WK_CLOUD_AGE_UNIT 18       // R8UI: frames since a pixel's cloud was marched
 #define WK_CLOUD_CHANGE_UNIT 17    // RGBA16F, a texel for 4 x 4 pixels: what the marched one differs from its history
+#define WK_CLOUD_AGE_UNIT 18       // R8UI: frames since a pixel's cloud was marched
+#define WK_SKY_FIELD_UNIT 19       // diffuse light, 2-D array, a layer a moment (lib/air_field.glsl)
