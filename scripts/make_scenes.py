@@ -99,7 +99,8 @@ def files():
     pose_sun = sun(POSE_SITE, (POSE_HEADING_DEG + 60) % 360, 48.0)
     for name, where in POSES.items():
         out[f"benchmarks/poses/{name}.json"] = {**scene(f"pose {name}", "../../data", POSE_QUALITY, {name: where}), "sun": pose_sun}
-    everything = {**scene("nothing left out", "../../data", POSE_QUALITY, {"orbit": POSES["orbit"]}), "sun": pose_sun}
+    everything = {**scene("nothing left out", "../../data", POSE_QUALITY, {"orbit": POSES["orbit"]}), "sun": pose_sun,
+                  "output": {"exposure_ev": "auto"}}
     out["benchmarks/left-out/nothing.json"] = everything
     for section in ["clouds", "atmosphere", "sun"]:
         out[f"benchmarks/left-out/no-{section}.json"] = {**without(everything, section), "name": f"no {section}"}

@@ -90,10 +90,10 @@ def clear_earth(atmosphere):
 def mars():
     radius_m, height_m, depth = 3_389_500.0, 11_100.0, 0.6
     extinction, albedo = [depth / height_m] * 3, [0.97, 0.87, 0.72]
-    peak = [0.32, 0.52, 0.84]
+    peak = [0.26, 0.50, 0.88]
     layers = [
         layer("carbon dioxide", exponential(height_m), rayleigh_per_m([4.65e-31, 1.086e-30, 2.65e-30], 636.0, 210.0), NOTHING, "rayleigh"),
-        particles("dust, forward peak", exponential(height_m), extinction, albedo, peak, 0.90),
+        particles("dust, forward peak", exponential(height_m), extinction, albedo, peak, 0.76),
         particles("dust, the rest", exponential(height_m), extinction, albedo, [1 - p for p in peak], 0.45),
     ]
     return {"name": "Mars", "planet": {"radius_m": radius_m, "albedo": [0.30, 0.15, 0.06]},
@@ -119,7 +119,7 @@ def titan():
         particles("detached haze", tent(510_000.0, 25_000.0), [0.6e-7, 0.9e-7, 1.4e-7], [0.98, 0.97, 0.95], [1.0] * 3, 0.5),
     ]
     return {"name": "Titan", "planet": {"radius_m": radius_m, "albedo": [0.17, 0.13, 0.07]},
-            "atmosphere": {"top_m": 600_000.0, "layers": layers}, "sun": sun(9.5826), "output": {"exposure_ev": "auto"},
+            "atmosphere": {"top_m": 600_000.0, "layers": layers}, "sun": sun(9.5826), "output": {"exposure_ev": "auto", "auto_exposure": {"max_ev": 12.0}},
             "views": {**from_space(radius_m, 1_500_000.0, 250_000.0),
                       "ground": ground(40.0, 330.0, 12.0),
                       "sunset": ground(3.0, 270.0, 14.0),

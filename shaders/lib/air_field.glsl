@@ -12,7 +12,8 @@
 #endif
 
 const int kFieldCount = (FIELD_DEGREE + 1) * (FIELD_DEGREE + 2) / 2 + FIELD_ZONAL - FIELD_DEGREE;
-const float kDark = 1e-30;  // stands for no light where logarithms are stored
+const float kDark = 1e-30;        // stands for no light where logarithms are stored
+const float kLeastSin2 = 0.09;    // nearer to the zenith moments with m > 0 are continued: over sin^m, errors of the quadrature would grow
 
 // Y_lm without its factor sin^m cos(m azimuth); c: cosine of the angle from the sun.
 float[kFieldCount] harmonics(float c) {

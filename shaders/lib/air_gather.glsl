@@ -21,6 +21,3 @@ GatherDirection gatherDirection(AirParams air, vec4 d, bool aboutSun, float alti
   float mu = sin(elevation), across = cos(elevation);
   return GatherDirection(mu, mu * muSun + across * sinSun * d.y, d.z * across * 2.0 * extent * abs(d.x), -1);
 }
-
-// Moments lack the fourth power of the sun's zenith sine (air_field.glsl); where that falls to 1e-6 they are taken a little off the zenith.
-float gatherSun(AirParams air, float coord) { return clamp(sunCosine(air, coord), -0.9995, 0.9995); }

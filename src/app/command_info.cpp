@@ -9,7 +9,10 @@
 #include "welkin/app/video.h"
 #include "welkin/core/files.h"
 #include "welkin/core/units.h"
+#include "welkin/gpu/timer.h"
 #include "welkin/physics/scene_io.h"
+#include "welkin/render/sky/sky_field.h"
+#include "welkin/render/sky/sky_tables.h"
 
 namespace welkin::app {
 namespace {
@@ -17,6 +20,7 @@ namespace {
 struct InfoOptions {
   CommonOptions common;
   std::filesystem::path scene;
+  bool tables = false;
 };
 
 struct Limit {
@@ -31,6 +35,45 @@ constexpr Limit kLimits[] = {{"max_texture_size", GL_MAX_TEXTURE_SIZE},
                              {"max_compute_shared_memory_size", GL_MAX_COMPUTE_SHARED_MEMORY_SIZE},
                              {"max_compute_work_group_invocations", GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS},
                              {"max_compute_texture_image_units", GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS}};
+
+// The Earth's air, as published comparisons of skies use it.
+Scene clearEarth() {
+  Scene scene;
+  scene.planet = {6'360'000, {0.3, 0.3, 0.3}, {}};
+  scene.atmosphere = Atmosphere{
+      100'000,
+      "auto",
+      {{"rayleigh", ExponentialProfile{8000}, {5.802e-6, 13.558e-6, 33.1e-6}, {}, PhaseType::Rayleigh, 0},
+       {"mie", ExponentialProfile{1200}, {3.996e-6, 3.996e-6, 3.996e-6}, {0.444e-6, 0.444e-6, 0.444e-6}, PhaseType::CornetteShanks, 0.8},
+       {"ozone", TentProfile{25'000, 15'000}, {}, {0.650e-6, 1.881e-6, 0.085e-6}, PhaseType::Isotropic, 0}}};
+  scene.sun = Sun{};
+  return scene;
+}
+
+// Each model's tables made twice: the first turn warms the driver's cache of shaders. Fields on disk are not used.
+Result<nlohmann::ordered_json> measureTables(Scene scene) {
+  if (!scene.atmosphere) return Error{"--tables: the scene has no atmosphere"};
+  ::setenv("WELKIN_CACHE", "", 1);
+  auto out = nlohmann::ordered_json::array();
+  for (const char* model : {"tables-4d", "tables-2d", "march"}) {
+    scene.atmosphere->model = model;
+    double wall_s[2], cpu_s = 0;
+    nlohmann::ordered_json row;
+    for (double& wall : wall_s) {
+      gpu::MemoryAccount account(scene.quality.budget_bytes);
+      glFinish();
+      const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
+      auto tables = SkyTables::create(account, scene);
+      if (!tables) return tables.error();
+      glFinish();
+      wall = (gpu::wall_ms() - wall0) / 1000, cpu_s = (gpu::processCpu_ms() - cpu0) / 1000;
+      row = {{"model", model}, {"wall_s", wall}, {"cpu_s", cpu_s}, {"first_wall_s", wall_s[0]}, {"bytes", tables->bytes()},
+             {"orders", tables->field().orders()}, {"rest", tables->field().rest()}};
+    }
+    out.push_back(row);
+  }
+  return out;
+}
 
 Result<void> runInfo(const InfoOptions& o) {
   beginCommand(o.common);
@@ -60,6 +103,11 @@ Result<void> runInfo(const InfoOptions& o) {
     if (!least) return least.error();
     out["scene"] = {{"file", o.scene.generic_string()}, {"budget_bytes", scene->quality.budget_bytes}, {"least_budget_bytes", *least}};
   }
+  if (o.tables) {
+    auto measured = measureTables(scene.value_or(clearEarth()));
+    if (!measured) return measured.error();
+    out["tables"] = *measured;
+  }
   if (!o.common.json.empty()) {
     if (auto written = writeFile(o.common.json, out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"); !written)
       return written;
@@ -76,6 +124,13 @@ Result<void> runInfo(const InfoOptions& o) {
                bytesText(out["scene"]["budget_bytes"].get<std::uint64_t>()),
                bytesText(out["scene"]["least_budget_bytes"].get<std::uint64_t>()));
   }
+  if (o.tables) {
+    fmt::print("tables   model       time s   CPU s   first   bytes  orders  missing\n");
+    for (const auto& row : out["tables"])
+      fmt::print("         {:<10} {:7.3f} {:7.3f} {:7.3f} {:>8} {:6} {:8.1e}\n", row["model"].get<std::string>(), row["wall_s"].get<double>(),
+                 row["cpu_s"].get<double>(), row["first_wall_s"].get<double>(), bytesText(row["bytes"].get<std::uint64_t>()),
+                 row["orders"].get<int>(), row["rest"].get<double>());
+  }
   return {};
 }
 
@@ -86,6 +141,7 @@ void addInfo(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("info", "version, OpenGL, limits, memory");
   command->footer("Example:\n  welkin info scenes/earth.json      with the least workable budget of a scene");
   command->add_option("SCENE", o->scene, "also print the least workable budget of this scene");
+  command->add_flag("--tables", o->tables, "make the sky's tables by each model: time and size (of the SCENE, or of the Earth's air)");
   addQualityOptions(*command, o->common);
   addOutputOptions(*command, o->common, "write the same to this file");
   command->callback([o, &action] { action = [o] { return runInfo(*o); }; });

@@ -23,12 +23,14 @@ Result<void> runPlan(const PlanOptions& o) {
   if (!o.common.json.empty()) {
     nlohmann::ordered_json out{{"scene", o.input.generic_string()}, {"passes", plan.passes}, {"left_out", nlohmann::ordered_json::array()}};
     for (const auto& left : plan.leftOut) out["left_out"].push_back({{"what", left.what}, {"reason", left.reason}});
+    if (!plan.skyModel.empty()) out["sky"] = {{"model", plan.skyModel}, {"reason", plan.skyReason}};
     out["budget_bytes"] = start->scene.quality.budget_bytes;
     if (auto written = writeFile(o.common.json, out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"); !written)
       return written;
   }
   fmt::print("runs, in this order:\n");
-  for (const auto& pass : plan.passes) fmt::print("  {}\n", pass);
+  for (const auto& pass : plan.passes)
+    fmt::print("  {}{}\n", pass, pass == "sky" ? fmt::format(" ({}; {})", plan.skyModel, plan.skyReason) : "");
   fmt::print("left out:{}\n", plan.leftOut.empty() ? " nothing" : "");
   for (const auto& left : plan.leftOut) fmt::print("  {}: {}\n", left.what, left.reason);
   return {};

@@ -75,18 +75,18 @@ Result<shared::AirLayer> layerOf(const AirLayer& in, int degree) {
   return out;
 }
 
-double thickness_m(const AirLayer& layer) {
-  if (const auto* e = std::get_if<ExponentialProfile>(&layer.profile)) return e->scaleHeight_m;
-  if (const auto* t = std::get_if<TentProfile>(&layer.profile)) return t->halfWidth_m;
-  const auto& u = std::get<UniformProfile>(layer.profile);
-  return u.top_m - u.base_m;
-}
-
 bool peaked(const shared::AirLayer& l) {
   return (l.phase == shared::kPhaseCornetteShanks || l.phase == shared::kPhaseHenyeyGreenstein) && std::abs(l.g) > 0.3f;
 }
 
 }  // namespace
+
+double layerThickness_m(const AirLayer& layer) {
+  if (const auto* e = std::get_if<ExponentialProfile>(&layer.profile)) return e->scaleHeight_m;
+  if (const auto* t = std::get_if<TentProfile>(&layer.profile)) return t->halfWidth_m;
+  const auto& u = std::get<UniformProfile>(layer.profile);
+  return u.top_m - u.base_m;
+}
 
 Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
   if (!scene.atmosphere) return Error{"the scene has no atmosphere"};
@@ -114,7 +114,7 @@ Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
   p.sunCos = std::cos(p.sunRadius_rad);
   p.sunSin = std::sin(p.sunRadius_rad);
   double scale_m = atmosphere.top_m;
-  for (const AirLayer& layer : atmosphere.layers) scale_m = std::min(scale_m, thickness_m(layer));
+  for (const AirLayer& layer : atmosphere.layers) scale_m = std::min(scale_m, layerThickness_m(layer));
   p.altitudeScale_m = static_cast<float>(scale_m);
   p.altitudeNorm = static_cast<float>(1 / std::log1p(atmosphere.top_m / scale_m));
   // A point sees light that was scattered once while the sun is less than twice the dip of the shell's horizon below its own; three

@@ -10,7 +10,7 @@ namespace welkin::reference {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPlainShare = 0.15;  // of events drawn without the guide: bounds a weight by 7 where the guide is wrong
+constexpr double kPlainShare = 0.25;  // of events drawn without the guide: bounds a weight by 4 where the guide is wrong
 constexpr double kGuidedShare = 0.5;  // of directions
 constexpr int kGuidedEvents = 5;      // later ones are drawn without it: its factors would spread the weights of long paths
 constexpr int kFirstRoulette = 3;     // the event from which paths may end early

@@ -24,7 +24,8 @@ SingleScattering singleScattering(const Medium& medium, const LitRay& lit) {
     return glm::exp(-opticalDepth(medium, ray, 0, t)) * sun * scatteringTowards(medium, h, lit.cosSun);
   };
   SingleScattering out;
-  out.radiance = integrate(source, breaks, kScatterTolerance).value;
+  const Integral scattered = integrate(source, breaks, kScatterTolerance);
+  out.radiance = scattered.value, out.converged = scattered.converged;
   out.transmittance = glm::exp(-opticalDepth(medium, ray, 0, lit.length_m));
   if (lit.end == RayEnd::Ground)
     out.radiance += out.transmittance * medium.albedo / std::numbers::pi * sunOnGround(medium, lit.sunMuAt(lit.length_m));

@@ -1,5 +1,7 @@
 #include "welkin/render/frame_plan.h"
 
+#include "welkin/render/sky/sky_model.h"
+
 namespace welkin {
 
 FramePlan planFrame(const Scene& scene) {
@@ -18,7 +20,16 @@ FramePlan planFrame(const Scene& scene) {
   plan.metered = plan.sun && !scene.output.exposure_ev;
   if (!plan.metered)
     plan.leftOut.push_back({"metering, adaptation of the exposure", plan.sun ? "the scene's exposure is a number" : "no sun in the scene: nothing to adapt to"});
-  if (plan.air) plan.passes.emplace_back("sky");
+  if (plan.air) {
+    plan.passes.emplace_back("sky");
+    if (const auto model = skyModel(scene)) {
+      plan.skyModel = model->name, plan.skyReason = model->reason;
+      if (!model->diffuse())
+        plan.leftOut.push_back({"field of diffuse light", model->reason});
+      else if (model->zonal <= 2)
+        plan.leftOut.push_back({"harmonics of diffuse light over degree 2", model->name == "tables-2d" ? "tables-2d has none" : "no layer's phase function has them"});
+    }
+  }
   if (plan.clouds) {
     plan.passes.emplace_back("maps");
     if (plan.sun) plan.passes.emplace_back("light");

@@ -56,6 +56,11 @@ struct Renderer::Impl {
   gpu::PassTimer timer;
   gpu::Buffer camera, counters;
   std::optional<SkyTables> sky;
+  struct NextSky {
+    SkyTables tables;
+    Scene scene;  // with the air that they are of
+  };
+  std::optional<NextSky> nextSky;  // in the making, after setAir()
   std::optional<CompositePass> composite;
   std::optional<ExposurePass> exposure;
   std::unique_ptr<DensitySource> source;
@@ -78,6 +83,9 @@ struct Renderer::Impl {
   void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats);
   float greatestDetail = 1e6f;      // of this picture's pixels
   void updateTreeBlock(glm::dvec3 camera_planet);
+  void workOnSky();
+  void useAir(const Scene& changed);
+  Result<void> setAir(const Scene& changed, AirChange how);
   void beginPicture(const ViewFrame& frame);                  // camera, counters, sky
   // Composite and exposure. sinceLast_s: ExposurePass::meter; none: the exposure stays where it is, unless there is none yet.
   void endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s);
@@ -198,9 +206,52 @@ void Renderer::Impl::beginPicture(const ViewFrame& frame) {
   counters.bind(GL_SHADER_STORAGE_BUFFER, WK_COUNTERS_BINDING);
   if (!sky) return;
   timer.begin("sky");
+  workOnSky();
   sky->updateView(frame.block, scene.sun ? scene.sun->direction_planet : glm::dvec3(0, 0, 1));
   sky->bind();
   timer.end();
+}
+
+void Renderer::Impl::workOnSky() {
+  if (!nextSky) return;
+  const double start = gpu::wall_ms();
+  bool more = true;
+  do {
+    more = nextSky->tables.advance(1);
+    glFinish();  // else slices would pile up in the driver unseen
+  } while (more && gpu::wall_ms() - start < settings.sky_ms);
+  if (more) return;
+  sky = std::move(nextSky->tables);
+  useAir(nextSky->scene);
+  nextSky.reset();
+}
+
+void Renderer::Impl::useAir(const Scene& changed) {
+  scene.planet.albedo = changed.planet.albedo, scene.atmosphere = changed.atmosphere, scene.sun = changed.sun;
+  composite->use(scene);
+}
+
+Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
+  Scene next = scene;
+  next.planet.albedo = changed.planet.albedo;
+  next.atmosphere = changed.atmosphere;
+  next.sun = changed.sun;
+  const FramePlan nextPlan = planFrame(next);
+  if (nextPlan.air != plan.air || nextPlan.sun != plan.sun) return Error{"air or a sun that come or go need a new start"};
+  if (plan.clouds && plan.sun && next.sun->direction_planet != scene.sun->direction_planet)
+    return Error{"a sun that moves needs a new start: clouds keep its light"};
+  if (sky) {
+    auto tables = how == AirChange::Keep ? SkyTables::withField(account, next, *sky) : SkyTables::begin(account, next);
+    if (!tables) return tables.error();
+    nextSky.reset();
+    if (how == AirChange::Recompute) {
+      nextSky.emplace(NextSky{std::move(*tables), std::move(next)});
+      return {};
+    }
+    sky = std::move(*tables);
+  }
+  useAir(next);
+  return {};
 }
 
 void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s) {
@@ -226,6 +277,7 @@ FrameStats Renderer::Impl::report(FrameStats stats) const {
   stats.bytesUsed = account.used();
   stats.bytesBudget = account.budget();
   stats.frameTargetBytes = account.frameTargets();
+  stats.skyProgress = nextSky ? nextSky->tables.progress() : 1;
   return stats;
 }
 
@@ -337,6 +389,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   return r.report(stats);
 }
 
+Result<void> Renderer::setAir(const Scene& changed, AirChange how) { return impl_->setAir(changed, how); }
 void Renderer::setStep(double step) { impl_->scene.quality.step = step; }
 
 void Renderer::preview(const View& view) {

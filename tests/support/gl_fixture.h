@@ -17,6 +17,7 @@ class GlEnvironment : public ::testing::Environment {
   static gpu::Context* context() {
     if (!slot()) {
       const char* choice = std::getenv("WELKIN_TEST_GPU");
+      ::setenv("WELKIN_CACHE", "", 0);  // tests make what they test
       auto made = gpu::Context::createHeadless(choice ? choice : "software");
       if (!made.ok()) {
         ADD_FAILURE() << made.error().message;

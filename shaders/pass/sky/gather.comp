@@ -19,7 +19,7 @@ void main() {
   int point = id % u_size.x + (id / (u_size.x * u_size.z)) * u_size.x, k = (id / u_size.x) % u_size.z;
   if (point >= u_size.x * u_size.y) return;
   vec2 coord = vec2(point % u_size.x, point / u_size.x) / (vec2(u_size.xy) - 1.0);
-  float altitude = coordAltitude(u_air.params, coord.y), muSun = gatherSun(u_air.params, coord.x);
+  float altitude = coordAltitude(u_air.params, coord.y), muSun = sunCosine(u_air.params, coord.x);
   GatherDirection d = gatherDirection(u_air.params, directions[k], k >= u_aboutVertical, altitude, muSun);
   AirPath path = AirPath(altitude, d.mu, muSun, d.cosine);
   AirExtent extent = airExtent(u_air.params, altitude, d.mu);

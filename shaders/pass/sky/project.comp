@@ -9,18 +9,23 @@ layout(std430, binding = 2) writeonly buffer Moments { vec4 moments[]; };  // [m
 uniform ivec3 u_size;
 uniform int u_aboutVertical;
 
+const float kMostTaken = 0.9;
+
 void main() {
   int point = int(gl_GlobalInvocationID.x), points = u_size.x * u_size.y;
   if (point >= points) return;
   vec2 coord = vec2(point % u_size.x, point / u_size.x) / (vec2(u_size.xy) - 1.0);
-  float altitude = coordAltitude(u_air.params, coord.y), muSun = gatherSun(u_air.params, coord.x);
+  float altitude = coordAltitude(u_air.params, coord.y), muSun = sunCosine(u_air.params, coord.x);
   float sin2 = 1.0 - muSun * muSun, scale[5];
-  for (int m = 0; m < 5; ++m) scale[m] = m == 0 ? 1.0 : scale[m - 1] / sin2;
+  scale[0] = 1.0;
+  for (int m = 1; m < 5; ++m) scale[m] = sin2 < kLeastSin2 ? 0.0 : scale[m - 1] / sin2;
   vec3 sums[kFieldCount], up = vec3(0.0), down = vec3(0.0);
   for (int i = 0; i < kFieldCount; ++i) sums[i] = vec3(0.0);
   for (int k = 0; k < u_size.z; ++k) {
     GatherDirection d = gatherDirection(u_air.params, directions[k], k >= u_aboutVertical, altitude, muSun);
     vec3 light = radiance[k * points + point].rgb * d.weight;
+    // What went straight on is taken off last. Where the sun stands in a bright rim it can be more than all: no light is less than none.
+    if (d.weight < 0.0) light = max(light, -kMostTaken / 0.28209479 * sums[0]);
     float y[kFieldCount] = harmonics(d.cosine);
     float turn[5] = azimuthal(d.mu, muSun, d.cosine);
     int i = 0;

@@ -37,18 +37,21 @@ AlbedoPicture halved(const AlbedoPicture& in) {
 
 }  // namespace
 
+void CompositePass::use(const Scene& scene) {
+  const auto vec = [](const Spectrum3& s) { return glm::vec3(s[0], s[1], s[2]); };
+  albedo_ = vec(scene.planet.albedo);
+  if (!scene.sun) return;
+  toSun_ = scene.sun->direction_planet;
+  sunIrradiance_ = vec(scene.sun->irradiance);
+  sunRadius_rad_ = static_cast<float>(scene.sun->angularRadius_rad);
+}
+
 Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const Scene& scene, int width, int height,
                                             const AlbedoPicture* albedo) {
   CompositePass pass;
   pass.account_ = &account;
   pass.width_ = width, pass.height_ = height;
-  const auto vec = [](const Spectrum3& s) { return glm::vec3(s[0], s[1], s[2]); };
-  pass.albedo_ = vec(scene.planet.albedo);
-  if (scene.sun) {
-    pass.toSun_ = scene.sun->direction_planet;
-    pass.sunIrradiance_ = vec(scene.sun->irradiance);
-    pass.sunRadius_rad_ = static_cast<float>(scene.sun->angularRadius_rad);
-  }
+  pass.use(scene);
   const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
   pass.shows_ = !planFrame(scene).metered;
   gpu::Defines defines{{"OPT_CLOUDS", onOff(scene.clouds.has_value())},

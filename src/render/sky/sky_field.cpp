@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 
+#include "sky_cache.h"
 #include "welkin/physics/quadrature.h"
 #include "welkin/shared/bindings.glsl.h"
 
@@ -33,6 +34,7 @@ DirectionList directionList(const SkyModel& model, const AirBlock& air) {
     for (const QuadratureNode& node : gaussLegendre(side > 0 ? model.above : model.below))
       azimuths(model.azimuths, [&](double cosine, double weight) { list.all.emplace_back(side * node.x, cosine, node.weight * weight, 0); });
   list.aboutVertical = static_cast<int>(list.all.size());
+  std::vector<glm::vec4> straightOn;  // what a layer scatters straight on is in the sun's own light: taken off, last
   for (std::uint32_t i = 0; i < air.params.layerCount; ++i) {
     const shared::AirLayer& layer = air.layers[i];
     if (!SkyModel::peaked(layer.phase, layer.g)) continue;
@@ -50,13 +52,16 @@ DirectionList directionList(const SkyModel& model, const AirBlock& air) {
       });
     }
     for (auto d = first; d < list.all.size(); ++d) list.all[d].z /= float(total);  // no light is made or lost by the quadrature
-    if (layer.forward > 0) list.all.emplace_back(1, 1, -layer.forward, float(i));   // what goes straight on is in the sun's own light
+    if (layer.forward > 0) straightOn.emplace_back(1, 1, -layer.forward, float(i));
   }
+  list.all.insert(list.all.end(), straightOn.begin(), straightOn.end());
   return list;
 }
 
 // g with sum 1 that makes g' gram g least: gram g = (1, 1, ...), scaled. Empty if there is nothing. Gaussian elimination with pivots: the matrix
-// is tiny, and nearly singular once steps say nothing new; the diagonal is raised by the rounding of the floats it is made of.
+// is tiny, and nearly singular once steps say nothing new; the diagonal is raised by the rounding of the floats it is made of. A
+// combination that would magnify that rounding past 1e-4 gives way to the last step alone.
+constexpr double kGreatestSize = 1000;
 std::vector<double> leastCombination(std::vector<double> gram, std::size_t n) {
   std::vector<double> g(n, 1.0);
   for (std::size_t i = 0; i < n; ++i) gram[i * n + i] *= 1 + 1e-12;
@@ -76,9 +81,20 @@ std::vector<double> leastCombination(std::vector<double> gram, std::size_t n) {
   }
   double all = 0;
   for (std::size_t k = 0; k < n; ++k) all += g[k] /= gram[k * n + k];
-  if (!(std::abs(all) > 0)) return {};
-  for (double& v : g) v /= all;
+  double size = 0;
+  for (double& v : g) size += std::abs(v /= all);
+  if (size < kGreatestSize) return g;  // not for NaN either: all was 0
+  g.assign(n, 0.0);
+  g.back() = 1;
   return g;
+}
+
+std::string cacheKey(const SkyModel& model, const AirBlock& air, const gpu::Defines& defines) {
+  std::string shaders;
+  for (const char* pass : {"transmittance", "sunlight", "gather", "project"})
+    if (const auto source = gpu::loadShaderSource(std::string("pass/sky/") + pass + ".comp", defines)) shaders += *source;
+  const auto text = [](GLenum name) { return std::string(reinterpret_cast<const char*>(glGetString(name))); };
+  return fieldKey(air, model, shaders, text(GL_RENDERER) + text(GL_VERSION));
 }
 
 constexpr std::size_t kWindow = 8;  // steps that an extrapolation looks back: floats hold few more that are independent
@@ -118,6 +134,13 @@ Result<SkyField> SkyField::create(gpu::MemoryAccount& account, const SkyModel& m
     f.done_ = true, f.rest_ = 0;
     return f;
   }
+  f.key_ = cacheKey(model, air, defines);
+  if (auto kept = loadField(f.key_, (layers + 2) * f.points())) {
+    f.store(*kept);
+    f.done_ = f.kept_ = true;
+    f.rest_ = model.rest;
+    return f;
+  }
   if (auto r = buffer(f.directionList_, list.all.size()); !r) return r.error();
   f.directionList_.upload(0, list.all);
   if (auto r = buffer(f.radiance_, list.all.size() * f.points()); !r) return r.error();
@@ -137,18 +160,17 @@ Result<SkyField> SkyField::create(gpu::MemoryAccount& account, const SkyModel& m
   return f;
 }
 
-bool SkyField::advance() {
+bool SkyField::advance(int rows) {
   if (done_) return false;
-  gatherRows();
+  gatherRows(std::min(rows, int(model_.altitudeTexels) - row_));
   if (row_ == int(model_.altitudeTexels)) endOrder();
   return !done_;
 }
 
-void SkyField::gatherRows() {
+void SkyField::gatherRows(int rows) {
   const bool first = first_.empty();
   const gpu::Program& program = first ? firstProgram_ : nextProgram_;
   const int directions = first ? directions_ : aboutVertical_;
-  const int rows = std::min(4, int(model_.altitudeTexels) - row_);
   program.set("u_size", glm::ivec3(int(model_.sunTexels), int(model_.altitudeTexels), directions));
   program.set("u_aboutVertical", aboutVertical_);
   program.set("u_first", row_);
@@ -183,8 +205,10 @@ void SkyField::endOrder() {
   light_ = extrapolate();
   done_ = rest_ <= model_.rest || orders_ + 1 >= model_.maxOrders;
   store(light_);
-  if (done_) steps_.clear();
-  if (done_) radiance_ = {}, directionList_ = {}, first_.clear(), light_.clear();
+  if (!done_) return;
+  saveField(key_, light_);
+  radiance_ = {}, directionList_ = {};
+  steps_.clear(), first_.clear(), light_.clear();
 }
 
 void SkyField::store(const Moments& moments) {
@@ -232,7 +256,8 @@ SkyField::Moments SkyField::extrapolate() {
       for (std::size_t k = 0; k < n; ++k) r += g[k] * steps_[k].change[p][c], value += g[k] * steps_[k].to[p][c];
       residual += weight[p] * r * r;
       norm += weight[p] > 0;
-      if (!(value >= first_[p][c])) continue;  // every order adds light: what leaves less than the first is none
+      // Where nothing was weighed the last step stands; and every order adds light: what leaves less than the first is none.
+      if (weight[p] == 0 || !(value >= first_[p][c])) continue;
       for (std::size_t i = p; i < count; i += lit) {
         value = 0;
         for (std::size_t k = 0; k < n; ++k) value += g[k] * steps_[k].to[i][c];

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "welkin/physics/air.h"
 #include "welkin/shared/phase.glsl.h"
 
 namespace welkin {
@@ -13,31 +14,55 @@ bool SkyModel::peaked(std::uint32_t phase, float g) {
   return (phase == shared::kPhaseCornetteShanks || phase == shared::kPhaseHenyeyGreenstein) && std::abs(g) > 0.3f;
 }
 
+namespace {
+
+bool peakedLayer(const AirLayer& l) {
+  return (l.phase == PhaseType::CornetteShanks || l.phase == PhaseType::HenyeyGreenstein) && SkyModel::peaked(shared::kPhaseHenyeyGreenstein, float(l.g));
+}
+
+// Scattering optical depth of the longest path there is, the one that touches the ground, both ways out; the greatest of the three
+// wavelengths. Each layer as if it were full up to its thickness: a bound of the order of the true value.
+double longestDepth(const Scene& scene) {
+  Spectrum3 sum{0, 0, 0};
+  for (const AirLayer& l : scene.atmosphere->layers) {
+    const double h = std::min(layerThickness_m(l), scene.atmosphere->top_m);
+    const double path = 2 * std::sqrt(h * (2 * scene.planet.radius_m + h));
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += l.scattering_per_m[c] * path;
+  }
+  return *std::max_element(sum.begin(), sum.end());
+}
+
+constexpr double kThin = 1e-3;  // what such air adds by scattering once is 1/1000 of white ground; scattering twice is beyond 16 bits
+
+}  // namespace
+
 Result<SkyModel> skyModel(const Scene& scene) {
   if (!scene.atmosphere) return Error{"the scene has no atmosphere"};
   SkyModel m;
   m.name = scene.atmosphere->model;
-  if (m.name == "auto") m.name = "tables-4d", m.reason = "auto: the air does not change";
-  else m.reason = "the scene says so";
-  const auto isPeaked = [](const AirLayer& l) {
-    return (l.phase == PhaseType::CornetteShanks || l.phase == PhaseType::HenyeyGreenstein) && std::abs(l.g) > 0.3;
-  };
+  m.reason = "the scene asks for it";
+  if (m.name == "auto" && longestDepth(scene) < kThin) {
+    m.name = "march", m.reason = "auto: the air is so thin that nothing is seen that was scattered twice";
+  } else if (m.name == "auto") {
+    m.name = "tables-4d", m.reason = "auto: the air stays as it is, so the most exact is paid once";
+  }
   const auto& layers = scene.atmosphere->layers;
-  const bool peaked = std::any_of(layers.begin(), layers.end(), isPeaked);
+  const bool peaked = std::any_of(layers.begin(), layers.end(), peakedLayer);
+  // The numbers are where halving a model's error would double its time (docs/sky.md).
   if (m.name == "tables-4d") {
     m.degree = peaked ? 4 : 2, m.zonal = peaked ? 12 : 2;
-    m.sunTexels = 64, m.altitudeTexels = 28;
-    m.above = 8, m.below = 5, m.azimuths = 8;
-    m.peakAngles = 16, m.peakAzimuths = 8;
-    m.pieces = 12;
+    m.sunTexels = 48, m.altitudeTexels = 22;
+    m.above = 7, m.below = 4, m.azimuths = 7;
+    m.peakAngles = 12, m.peakAzimuths = 6;
+    m.pieces = 9;
     m.maxOrders = 40, m.rest = 1e-3;
   } else if (m.name == "tables-2d") {
     m.degree = m.zonal = 2;
     m.sunTexels = 32, m.altitudeTexels = 16;
     m.above = 4, m.below = 3, m.azimuths = 4;
     m.peakAngles = 6, m.peakAzimuths = 4;
-    m.pieces = 8;
-    m.maxOrders = 40, m.rest = 1e-2;
+    m.pieces = 6;
+    m.maxOrders = 20, m.rest = 1e-2;
   } else if (m.name == "march") {
     m.maxOrders = 1;
     m.sunTexels = m.altitudeTexels = 2;

@@ -34,6 +34,8 @@ gpu::Defines layerDefines(const AirBlock& block, const SkyModel& model) {
   return defines;
 }
 
+constexpr int kAllRows = 1 << 20;
+
 void tablesWritten() { glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT); }
 
 }  // namespace
@@ -41,7 +43,7 @@ void tablesWritten() { glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_
 Result<SkyTables> SkyTables::create(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
   auto tables = begin(account, scene, orders);
   if (!tables) return tables.error();
-  while (tables->advance()) {}
+  while (tables->advance(kAllRows)) {}
   return tables;
 }
 
@@ -64,10 +66,30 @@ Result<SkyTables> SkyTables::begin(gpu::MemoryAccount& account, const Scene& sce
   return tables;
 }
 
-bool SkyTables::advance() {
+Result<SkyTables> SkyTables::withField(gpu::MemoryAccount& account, const Scene& scene, SkyTables& from) {
+  auto model = skyModel(scene);
+  if (!model) return model.error();
+  auto block = airBlock(scene, model->zonal);
+  if (!block) return block.error();
+  SkyTables tables;
+  tables.model_ = *model;
+  tables.block_ = *block;
+  tables.altitudeStep_m_ = block->params.altitudeScale_m / 1000;
+  tables.defines_ = layerDefines(*block, *model);
+  if (model->moments() != from.model_.moments() || model->diffuse() != from.model_.diffuse())
+    return Error{"the sky's light must be made anew: another model, or other phase functions"};
+  if (auto r = tables.allocate(account); !r) return r.error();
+  if (auto r = tables.compute(); !r) return r.error();
+  tables.field_ = std::move(from.field_);
+  return tables;
+}
+
+double SkyTables::progress() const { return field_->progress(); }
+
+bool SkyTables::advance(int rows) {
   params_.bind(GL_UNIFORM_BUFFER, WK_AIR_PARAMS_BINDING);
   sunDepth().bind(WK_SKY_TRANSMITTANCE_UNIT);
-  const bool more = field_->advance();
+  const bool more = field_->advance(rows);
   keyAltitude_m_ = -1;  // the view tables show less light than there is
   return more;
 }

@@ -202,6 +202,26 @@ TEST_F(Exposure, MeteredPictureComesBackEqualFromItsNumber) {
   EXPECT_EQ(fixed->image().rgba, picture.rgba) << "a scene with the number: tone-mapped in the composite pass";
 }
 
+// Radiance is linear in the sun's irradiance, so a unit that is 1024 times smaller asks for ten stops less and shows the same picture: all
+// steps on the way are divisions by powers of two, or rounded relative to the value.
+TEST_F(Exposure, UnitOfLightChangesNoPicture) {
+  Scene scene = smallEarth();
+  scene.clouds.reset();
+  scene.output.exposure_ev.reset();
+  const View view = viewAt(45, 0, 9000, 0, -12);
+  const auto drawn = [&](double unit) {
+    scene.sun->irradiance = {1.474 * unit, 1.850 * unit, 1.912 * unit};
+    const auto renderer = makeRenderer(*context, scene);
+    const double ev = renderer->frame(view, FrameMode::Full).exposure_ev;
+    return std::pair{ev, renderer->image()};
+  };
+  const auto [ev, picture] = drawn(1);
+  const auto [large_ev, large] = drawn(1024);
+  EXPECT_EQ(large_ev, ev - 10);
+  EXPECT_EQ(large.rgba, picture.rgba);
+  EXPECT_GT(contrast(picture), 0.05);
+}
+
 TEST_F(Exposure, FlightAdaptsAndIsTheSameTwice) {
   const auto fly = [&](std::uint32_t jitter, std::vector<double>& evs) {
     const auto renderer =

@@ -83,7 +83,7 @@ TEST(SceneIo, exposureIsANumberOrMetered) {
   const Scene metered = mustParse(R"({"output": {"exposure_ev": "auto", "auto_exposure": {"low_percentile": 97, "min_ev": 20}}})");
   EXPECT_FALSE(metered.output.exposure_ev);
   EXPECT_EQ(metered.output.autoExposure.highPercentile, 97) << "never below the low one";
-  EXPECT_EQ(metered.output.autoExposure.max_ev, 20);
+  EXPECT_EQ(metered.output.autoExposure.min_ev, 20);
   EXPECT_FALSE(mustParse(sceneToJson(metered)).output.exposure_ev);
 }
 

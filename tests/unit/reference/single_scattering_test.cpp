@@ -160,6 +160,7 @@ TEST(SingleScattering, GroundAtOnesFeet) {
 }
 
 TEST(SingleScattering, NeverNanNorNegative) {
+  // Azimuth 170: at 180 with sun and view at 90 the ray lies on the edge of the shadow all along, lit or not by rounding.
   for (const double R : {100.0, 6.36e6, 1e8})
     for (const double a : {0.0, kDisc_rad}) {
       if (a > 0 && R > 100) continue;  // takes ten times as long
@@ -171,8 +172,11 @@ TEST(SingleScattering, NeverNanNorNegative) {
       for (const double h : {-1.0, 1e-9 * R, 0.1 * top, top, 2 * R})
         for (const double sun : {0.0, 89.999, 90.0, 100.0, 180.0})
           for (const double view : {0.0, 89.9999, 90.0, 135.0, 180.0}) {
-            const ProbeResult result = singleOrderRadiance(medium, probeRay(h, sun, view, 180));
-            for (std::size_t k = 0; k < 3; ++k) {
+            const auto lit = enterShell(medium, probeRay(h, sun, view, 170));
+            if (!lit) continue;
+            const SingleScattering result = singleScattering(medium, *lit);
+            EXPECT_TRUE(result.converged) << R << " " << h << " " << sun << " " << view;
+            for (int k = 0; k < 3; ++k) {
               EXPECT_TRUE(std::isfinite(result.radiance[k]) && result.radiance[k] >= 0) << R << " " << h << " " << sun << " " << view;
               EXPECT_TRUE(result.transmittance[k] >= 0 && result.transmittance[k] <= 1);
             }

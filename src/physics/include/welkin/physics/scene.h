@@ -100,7 +100,7 @@ struct AutoExposure {
   double compensation_ev = 0;                           // stops brighter than that
   double adaptToBright_s = 0.4, adaptToDark_s = 1.2;    // time constants: 63 % of the way to a darker and to a brighter exposure
   double lowPercentile = 10, highPercentile = 90;       // of the pixels that are not black
-  double min_ev = -8, max_ev = 16;
+  double min_ev = -40, max_ev = 40;                     // no limits
 };
 
 struct Output {

@@ -6,6 +6,7 @@ namespace welkin::reference {
 
 struct SingleScattering {
   Spectrum radiance{}, transmittance{};
+  bool converged = true;  // the integral along the ray kept its tolerance within 2,000 panels
 };
 
 // L = int T(0, t) T_sun(t) sum over layers of (scattering * phase) dt + T(0, end) albedo / pi * E_sun(end) where the ray ends on the

@@ -18,6 +18,7 @@ struct FramePlan {
   bool air = false;     // sky tables and aerial perspective
   bool sun = false;     // light from the sun, its disc, shadows
   bool metered = false;  // histogram, adaptation, tone mapping in a pass of its own
+  std::string skyModel, skyReason;  // which tables of the sky, and why; empty without air
   std::vector<std::string> passes;  // in order
   std::vector<LeftOut> leftOut;
 };

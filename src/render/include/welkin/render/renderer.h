@@ -22,6 +22,7 @@ struct RenderSettings {
   std::uint32_t bricksPerFrame = 256;   // generated at most in one frame while flying
   std::uint32_t workerJitterSeed = 0;   // tests of determinism: random delays in the worker
   bool reprojection = true;             // march one pixel in 16 a frame
+  double sky_ms = 8;                    // a frame's work on the light of a changed air (Renderer::setAir); at least one slice of it
   bool timing = true;                   // per-pass times (on software GL: glFinish after each pass)
   bool waitForEdits = true;             // true: edits of frame k apply at frame k + 2, whatever it takes (deterministic); false: when ready
 };
@@ -45,6 +46,7 @@ struct FrameStats {
   std::uint64_t bytesUsed = 0, bytesBudget = 0, frameTargetBytes = 0;
   double sampleDetail = 0;
   double exposure_ev = 0;  // at which the picture is shown: of the view, of the scene, or metered
+  double skyProgress = 1;  // of the light of a changed air (Renderer::setAir), 0..1; 1: it is shown
 };
 
 enum class FrameMode { Reprojected, Full };  // Full marches every pixel and writes history too
@@ -68,6 +70,11 @@ class Renderer {
   FrameStats frame(const View& view, FrameMode mode = FrameMode::Reprojected, double sinceLast_s = std::numeric_limits<double>::infinity());
   // Streams (draws nothing) until nothing is pending for this view, then returns. `progress` gets 0..1 and may return false to stop.
   FrameStats settle(const View& view, const std::function<bool(double)>& progress = {});
+  // Planet's albedo, atmosphere and sun from now on. Recompute: the old light is drawn until the new one is there; each frame works on it for
+  // sky_ms. Keep: at once, and what is scattered more than once stays that of the old air. Fails in one line and changes nothing: values
+  // out of range, memory, air where there was none or none where there was some, or (Keep) light that does not fit.
+  enum class AirChange { Recompute, Keep };
+  Result<void> setAir(const Scene& changed, AirChange how);
   void setStep(double step);  // Quality::step from the next picture on; the tree stays as it is
   // Draws this view from the tree as it is now, every pixel marched; no edit is applied; history, frame count and metered exposure
   // stay. For comparing: image() and radiance() then return this picture.

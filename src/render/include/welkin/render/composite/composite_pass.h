@@ -34,6 +34,8 @@ class CompositePass {
     return *this;
   }
 
+  void use(const Scene& scene);  // plain albedo and sun of this scene from now on; what it has and has not stays as it was at the start
+
   // Reads the camera (WK_CAMERA_BINDING, the same block as here), the sky tables (SkyTables::bind) and the cloud layer's two textures;
   // counts into WK_COUNTERS_BINDING. Exposure in EV: 0 suits a sun of irradiance 1; of a scene with a metered exposure it is not used,
   // and display() is left to ExposurePass::show.

@@ -17,12 +17,14 @@ class SkyField {
   // `defines`: of the scene's layers. The air block and the sun's depth must be bound when advance() runs.
   static Result<SkyField> create(gpu::MemoryAccount& account, const SkyModel& model, const shared::AirBlock& air, const gpu::Defines& defines);
 
-  // One slice of the work: some rows of one order, or its end. False when all is done. After each order the tables hold the light so far.
-  bool advance();
+  // One slice of the work: some altitudes of one order, with the last of them its end. False when all is done. After each order the tables
+  // hold the light so far.
+  bool advance(int rows);
   double progress() const;  // 0..1, by the greatest number of orders
 
   void bind() const;  // field and irradiance to their units
   const gpu::Texture& irradiance() const { return irradiance_; }
+  bool kept() const { return kept_; }     // it was on disk (sky_cache.h)
   int orders() const { return orders_; }  // gathered so far
   double rest() const { return rest_; }   // estimate of what is missing, relative to the light, greatest of the three wavelengths
   std::size_t bytes() const;
@@ -30,14 +32,15 @@ class SkyField {
  private:
   using Moments = std::vector<glm::vec4>;
   std::size_t points() const { return std::size_t(model_.sunTexels) * model_.altitudeTexels; }
-  void gatherRows();
+  void gatherRows(int rows);
   void endOrder();
   void store(const Moments& moments);
   Moments extrapolate();  // of the steps; sets rest_
 
   SkyModel model_;
   int aboutVertical_ = 0, directions_ = 0, row_ = 0;
-  bool done_ = false;
+  bool done_ = false, kept_ = false;
+  std::string key_;
   double rest_ = 1;
   int orders_ = 0;
   struct Step { Moments change, to; };

@@ -17,7 +17,7 @@ struct SkyModel {
   int peakAngles = 0, peakAzimuths = 0;             // about the sun, for each peaked layer
   int pieces = 0;                      // of each path gathered, two nodes each
   int maxOrders = 0;                   // of scattering; 1: no field
-  double rest = 0;                     // stop when the orders left out are below this part of the light
+  double rest = 0;                     // stop when what is missing is below this part of the light
 
   int moments() const { return (degree + 1) * (degree + 2) / 2 + zonal - degree; }
   bool diffuse() const { return maxOrders > 1; }
@@ -25,7 +25,8 @@ struct SkyModel {
   static bool peaked(std::uint32_t phase, float g);
 };
 
-// The model that the scene's `atmosphere.model` names. `auto`: tables-4d. Fails in one line on a name that is none.
+// The model that the scene's `atmosphere.model` names. `auto`: tables-4d, or march where the air is too thin for more. Fails in one line
+// without an atmosphere and on a name that is none.
 Result<SkyModel> skyModel(const Scene& scene);
 
 }  // namespace welkin
