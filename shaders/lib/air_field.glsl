@@ -69,7 +69,7 @@ vec2 fieldTexel(AirParams air, vec2 size, float altitude_m, float muSun) {
 // Where the table has the moment lm.
 int momentLayer(int l, int m) { return l <= FIELD_DEGREE ? l * (l + 1) / 2 + m : kFieldCount - 1 - FIELD_ZONAL + l; }
 
-// Radiance scattered per metre. weight[l]: sum over layers of scattering [1/m] times chi_l. READ_DEGREE, READ_ZONAL: how much of the series.
+// Radiance scattered per metre; FIELD_SIGNED: with the dips of the cut series, without which its mean would be too bright. weight[l]: sum over layers of scattering [1/m] times chi_l. READ_DEGREE, READ_ZONAL: how much of the series.
 vec3 fieldSource(sampler2DArray field, vec2 uv, vec3 weight[FIELD_ZONAL + 1], float y[kFieldCount], float turn[5]) {
   vec3 sum = weight[0] * y[0];
   for (int l = 1; l <= READ_ZONAL; ++l) {
@@ -80,5 +80,8 @@ vec3 fieldSource(sampler2DArray field, vec2 uv, vec3 weight[FIELD_ZONAL + 1], fl
     }
     sum += weight[l] * part;
   }
-  return max(sum, vec3(0.0)) * exp(textureLod(field, vec3(uv, 0.0), 0.0).rgb);  // a cut series may dip below 0
+#if !FIELD_SIGNED
+  sum = max(sum, vec3(0.0));  // a cut series may dip below 0
+#endif
+  return sum * exp(textureLod(field, vec3(uv, 0.0), 0.0).rgb);
 }

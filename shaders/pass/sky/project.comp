@@ -29,7 +29,9 @@ void main() {
     float y[kFieldCount] = harmonics(d.cosine);
     float turn[5] = azimuthal(d.mu, muSun, d.cosine);
     int i = 0;
-    for (int l = 0; l <= FIELD_ZONAL; ++l)
+    // What is gathered about the vertical is smooth, and too few directions to tell higher harmonics apart.
+    int last = k < u_aboutVertical ? FIELD_DEGREE : FIELD_ZONAL;
+    for (int l = 0; l <= last; ++l)
       for (int m = 0; m <= (l > FIELD_DEGREE ? 0 : l); ++m) sums[i] += y[i] * turn[m] * scale[m] * light, ++i;
     up += max(d.mu, 0.0) * light;
     down += max(-d.mu, 0.0) * light;

@@ -8,6 +8,6 @@ layout(rgba32f, binding = 0) uniform writeonly image2D u_out;
 void main() {
   vec2 size = vec2(kTransmittanceWidth, kTransmittanceHeight);
   vec2 point = transmittancePoint(u_air.params, vec2(gl_GlobalInvocationID.xy) / (size - 1.0));
-  vec3 depth = airOpticalDepthToTop(u_air, point.x, point.y, 40u);
+  vec3 depth = airOpticalDepthToTop(u_air, point.x, point.y, 28u);
   imageStore(u_out, ivec2(gl_GlobalInvocationID.xy), vec4(log(max(depth, vec3(kNoDepth))), 0.0));
 }

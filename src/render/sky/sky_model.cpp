@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "welkin/physics/air.h"
 #include "welkin/shared/phase.glsl.h"
@@ -69,7 +67,6 @@ Result<SkyModel> skyModel(const Scene& scene) {
   } else {
     return Error{"atmosphere: model must be auto, tables-4d, tables-2d or march, found " + m.name};
   }
-  if (const char* t = std::getenv("WKSKY")) std::sscanf(t, "%d,%d,%u,%u,%d,%d,%d,%d,%d,%d,%d,%lf", &m.degree, &m.zonal, &m.sunTexels, &m.altitudeTexels, &m.above, &m.below, &m.azimuths, &m.peakAngles, &m.peakAzimuths, &m.pieces, &m.maxOrders, &m.rest);  // XXX
   return m;
 }
 
