@@ -21,7 +21,8 @@ import sky
 
 METHOD_VERSION = 1  # raise it when the reference's answers change on purpose
 SHARE = 1 / 5  # standard error over limit
-MAX_PATHS = 200_000_000  # of a ray: more than any has needed
+FIRST_PATHS = 9216  # the least that the reference takes
+LEAST_RELATIVE_ERROR = 1e-4  # so that the number of paths decides
 INDEX = os.path.join(sky.TRUTH, "truth.json")
 
 
@@ -64,29 +65,30 @@ def reference(welkin, group, rays, out, options):
 
 
 def all_orders(welkin, group, rays, out, threads, seed=1):
-    """A rough pass says what matters; each ray is then traced as long as it needs, and again if that was not enough."""
-    def trace(which, relative_error):
-        options = ["--relative-error", f"{relative_error:.3g}", "--seed", seed, "--max-paths", MAX_PATHS, *threads]
+    """A few paths for each ray say what matters; each ray then gets as many as it needs, and more if that was not enough.
+
+    Paths and not a relative error are asked for: the reference keeps that at each wavelength, also where one is too dim to matter.
+    """
+    def trace(which, count):
+        options = ["--relative-error", LEAST_RELATIVE_ERROR, "--max-paths", count, "--seed", seed, *threads]
         return dict(zip(which, reference(welkin, group, [rays[i] for i in which], out, options)))
 
     everything = range(len(rays))
-    asked = {i: 0.1 for i in everything}
-    rows = trace(list(everything), 0.1)
+    paths = {i: FIRST_PATHS for i in everything}
+    rows = trace(list(everything), FIRST_PATHS)
     for _ in range(8):
         limits = allowed(group, [rows[i] for i in everything])
         levels = {}
         for i in everything:
-            errors = sky.values(rows[i], sky.STANDARD_ERROR)
-            ratio = min((limit / e for limit, e in zip(limits[i], errors) if e > 0), default=1.0)
-            if ratio < 1:
-                reached = max((e / value for e, value in zip(errors, sky.values(rows[i], sky.RADIANCE)) if value > 0), default=asked[i])
+            excess = max((e / limit for limit, e in zip(limits[i], sky.values(rows[i], sky.STANDARD_ERROR)) if limit > 0), default=0.0)
+            if excess > 1:
                 # Rays of similar need go together: a level is a power of the root of 2.
-                asked[i] = 2 ** (math.floor(2 * math.log2(min(asked[i], reached) * min(0.95 * ratio, 0.8))) / 2)
-                levels.setdefault(asked[i], []).append(i)
+                paths[i] = int(2 ** (math.ceil(2 * math.log2(paths[i] * max(1.1 * excess**2, 1.3))) / 2))
+                levels.setdefault(paths[i], []).append(i)
         if not levels:
             return [rows[i] for i in everything]
-        for relative_error, which in sorted(levels.items(), reverse=True):
-            rows |= trace(which, relative_error)
+        for count, which in sorted(levels.items()):
+            rows |= trace(which, count)
     raise RuntimeError(f"{sum(map(len, levels.values()))} rays do not reach their standard error")
 
 
