@@ -3,9 +3,11 @@ BUILD ?= build
 OUT ?= out
 FLY ?= # further options of `welkin fly`, for instance FLY="--size 640x360"
 CHECK ?= --json benchmarks/results/check-orbit.json # further options of scripts/check_orbit.py, for instance CHECK="--only speed --quick"
+SKY ?= --json benchmarks/results/check-sky.json # further options of scripts/check_sky.py, for instance SKY="--only accuracy --quick"
+TRUTH ?= # further options of scripts/make_truth.py, for instance TRUTH="--only space --force"
 JOBS ?= $(shell nproc)
 
-.PHONY: all help build fly test data setup extras check-orbit install format format-check clean
+.PHONY: all help build fly test data setup extras check-orbit check-sky truth figures install format format-check clean
 all: build
 
 help: ## this list
@@ -30,6 +32,17 @@ test: setup ## build and run all tests
 check-orbit: setup data ## what must hold for the flight, line by line
 	@scripts/build.sh $(BUILD) $(JOBS) ON
 	@/usr/bin/python3 scripts/check_orbit.py --build $(BUILD) --out $(OUT)/check-orbit $(CHECK)
+
+check-sky: setup ## what must hold for the clear sky, line by line
+	@scripts/build.sh $(BUILD) $(JOBS) ON
+	@/usr/bin/python3 scripts/check_sky.py --build $(BUILD) --out $(OUT)/check-sky $(SKY)
+
+truth: build ## make anew what has changed of the truth of the sky, tests/truth/sky/
+	@/usr/bin/python3 scripts/make_truth.py --build $(BUILD) $(TRUTH)
+
+figures: setup ## the figure of the sky's error, from benchmarks/results/check-sky.json
+	@mkdir -p docs/figures
+	@/usr/bin/python3 scripts/plot_sky.py benchmarks/results/check-sky.json -o docs/figures/sky-error.png
 
 extras: build data ## the documented pictures at full size, and the zoom series
 	@scripts/extras.sh $(BUILD) $(OUT)/pictures

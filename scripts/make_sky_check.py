@@ -255,11 +255,11 @@ def ray_files():
     out = {"transmittance": transmittance(200),
            "single-day": named_sky([30, 60, 85, 90]) + sky(288, 0, 90),
            "single-twilight": named_sky([92, 94, 96]) + sky(188, 92, 96),
-           "sky-75": named_sky([30, 55, 74]) + sky(32, 0, 75),
-           "sky-85-90": named_sky([88, 86, 90]) + sky(28, 85, 90),
-           "sky-92-96": named_sky([92, 94, 96]) + sky(32, 92, 96),
-           "space": space(48), "space-single": space(200),
-           "segments-75": segments(45, 0, 75), "segments-85-90": segments(45, 85, 90),
+           "sky-75": named_sky([30, 55, 74]) + sky(52, 0, 75),
+           "sky-85-90": named_sky([88, 86, 90]) + sky(48, 85, 90),
+           "sky-92-96": named_sky([92, 94, 96]) + sky(52, 92, 96),
+           "space": space(64), "space-single": space(200),
+           "segments-75": segments(60, 0, 75), "segments-85-90": segments(60, 85, 90),
            "night": night(40), "robust": robust(120)}
     out["robust-tiny"] = shrunk(out["robust"])
     out["sky-75-tiny"] = shrunk(out["sky-75"])

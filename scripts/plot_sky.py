@@ -15,13 +15,15 @@ import sys
 REPOSITORY = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # Okabe and Ito (2008): colours that people with the common colour deficiencies can tell apart.
 OURS = {"tables-4d": ("#0072b2", "o", "Welkin, tables-4d"), "tables-2d": ("#d55e00", "s", "Welkin, tables-2d")}
-THEIRS = {"Bruneton 2017, 4 orders": ("#009e73", "D", "Bruneton 2017, 4 orders"), "Hillaire 2020, 128 steps": ("#777777", "^", "Hillaire 2020, 128 steps"),
+THEIRS = {"Bruneton 2017, 4 orders": ("#009e73", "D", "Bruneton 2017, 4 orders"),
+          "half-float tables of a web port": ("#7fcdaa", "d", "the same, half-float tables of a web port"),
+          "Hillaire 2020, 128 steps": ("#777777", "^", "Hillaire 2020, 128 steps"),
           "Hillaire 2020, 4-14 steps": ("#b0b0b0", "v", "Hillaire 2020, 4–14 steps")}
 PUBLISHED_ABOUT = {"sky-75": (15, 90), "sky-85-90": (0, 5), "sky-92-96": (-6, -2)}  # elevations, degrees
 BINS = [(-6, -4), (-4, -2), (0, 2.5), (2.5, 5), (15, 40), (40, 60), (60, 90)]  # of elevation: what the groups of all orders cover
-SIDE = [("limb and disc\nfrom space", "space", "limb-75"), ("1–100 km of air\nsun ≥ 15°", "segments-75", None),
-        ("1–100 km of air\nsun 0–5°", "segments-85-90", "segments-85-90"), ("medium × 10\nsun ≥ 15°", "x10-75", "sky-75"),
-        ("medium × 10\nsun 0–5°", "x10-85-90", "sky-85-90")]
+SIDE = [("limb and\ndisc from\nspace", "space", "limb-75"), ("1–100 km\nof air,\nsun ≥ 15°", "segments-75", None),
+        ("1–100 km\nof air,\nsun 0–5°", "segments-85-90", "segments-85-90"), ("medium\n× 10,\nsun ≥ 15°", "x10-75", "sky-75"),
+        ("medium\n× 10,\nsun 0–5°", "x10-85-90", "sky-85-90")]
 
 
 def fail(path, message):
@@ -132,9 +134,9 @@ def plot(check, published, outputs):
         axis.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g} %"))
         axis.tick_params(axis="y", which="both", length=0)
     figure.suptitle("Error of the sky against the truth", x=0.01, ha="left", fontweight="bold")
-    figure.legend(handles=[h for h in handles.values() if h], loc="lower left", bbox_to_anchor=(0.06, 0.0), ncols=2, frameon=False, fontsize=9.5)
-    figure.text(0.995, 0.012, "Line: all rays of a bin, at 680, 550 and 440 nm; dot: one ray. Published: measured beside an exact solution\n"
-                "of the same medium, over the elevations that a line spans; for the medium × 10, Hillaire 2020.", ha="right", fontsize=7.8, color="#555555")
+    figure.legend(handles=[h for h in handles.values() if h], loc="lower left", bbox_to_anchor=(0.06, 0.0), ncols=3, frameon=False, fontsize=9.5)
+    figure.text(0.995, 0.012, "Line: all rays of a bin, at 680, 550 and 440 nm.\nDot: one ray. Published: measured beside an exact\n"
+                "solution of the same medium, over the elevations\nthat a line spans; medium × 10: Hillaire 2020.", ha="right", fontsize=7.8, color="#555555")
     for output in outputs:
         figure.savefig(output, dpi=150, metadata={"Date": None} if output.endswith(".svg") else None)
 

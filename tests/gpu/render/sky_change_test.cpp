@@ -52,7 +52,6 @@ TEST_F(SkyChange, RecomputesOverFrames) {
   ASSERT_TRUE(fresh.ok());
   const auto before = draw(**renderer), wanted = draw(**fresh);
   ASSERT_NE(before, wanted);
-  RenderSettings settings = small();
   ASSERT_TRUE((*renderer)->setAir(hazy(), Renderer::AirChange::Recompute).ok());
   double last = -1;
   int frames = 0;

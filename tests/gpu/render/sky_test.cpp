@@ -271,7 +271,9 @@ TEST_F(Sky, IrradianceConservesEnergy) {
         // Light comes in from the side where the sun is low and air peaked: 2 %.
         EXPECT_LT(back / thinned, scale == 100 ? 1.001 : 1.025);
         EXPECT_GT(back / thinned, scale == 100 ? 0.7 : 0.97);
-        if (scale < 100) EXPECT_NEAR(up / down, 1, 5e-3) << "flux by four directions";
+        if (scale < 100) {
+          EXPECT_NEAR(up / down, 1, 5e-3) << "flux by four directions";
+        }
       }
     }
 }
