@@ -93,7 +93,7 @@ def mars():
     peak = [0.26, 0.50, 0.88]
     layers = [
         layer("carbon dioxide", exponential(height_m), rayleigh_per_m([4.65e-31, 1.086e-30, 2.65e-30], 636.0, 210.0), NOTHING, "rayleigh"),
-        particles("dust, forward peak", exponential(height_m), extinction, albedo, peak, 0.76),
+        particles("dust, forward peak", exponential(height_m), extinction, albedo, peak, 0.90),
         particles("dust, the rest", exponential(height_m), extinction, albedo, [1 - p for p in peak], 0.45),
     ]
     return {"name": "Mars", "planet": {"radius_m": radius_m, "albedo": [0.30, 0.15, 0.06]},

@@ -133,6 +133,13 @@ Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
     p.peakPhase = layer->phase;
     p.peakG = layer->g;
   }
+  // Of the shell's height, where an optical depth of 1 (550 nm) lies above: paths from higher up end near there, not at the ground.
+  if (p.layerCount > 0 && scene.planet.radius_m > 0) {
+    const auto above = [&](double h) { return shared::airOpticalDepthToTop(block, static_cast<float>(h), 1, 40).y; };
+    double low = 0, high = above(0) > 1 ? atmosphere.top_m : 0;
+    for (int i = 0; i < 20; ++i) (above(0.5 * (low + high)) > 1 ? low : high) = 0.5 * (low + high);
+    block.params.hazeTop = static_cast<float>(std::min(3 * high / atmosphere.top_m, 1.0));
+  }
   return block;
 }
 
@@ -157,7 +164,7 @@ shared::AirViewFrame airViewFrame(const shared::AirParams& air, double centre_m,
   v.groundChord = f(std::sqrt(1 + muHorizon));
   v.anchorAltitude_m = f(anchor);
   v.skySlices = f(anchor / top - 1);               // dense near a camera in thick air, even through the limb
-  v.groundSlices = f(anchor / (anchor + 10'000));  // dense near the ground for a camera above thick air
+  v.groundSlices = f(anchor / (anchor + 10'000) * (1 - air.hazeTop));  // dense near the ground for a camera above air that is thick there
   v.cosSun = f(cosSun);
   v.sinSun = f(std::sqrt(1 - cosSun * cosSun));
   v.anchorOverCentre = outside ? f((radius + top) / centre_m) : 1.0f;

@@ -40,9 +40,11 @@ void main() {
   AirSum sum = airNothing();
   float t = 0.0;
   for (uint slice = 1u; slice < kViewSlices; ++slice) {
-    float next = end * airSliceAt(spacing, float(slice) / float(kViewSlices - 1u));
-    sum = airStretch(u_sunDepth, u_field, u_air, path, terms, sum, t, next);
-    t = next;
+    for (int piece = 1; piece <= VIEW_PIECES; ++piece) {
+      float next = end * airSliceAt(spacing, (float(slice - 1u) + float(piece) / float(VIEW_PIECES)) / float(kViewSlices - 1u));
+      sum = airStretch(u_sunDepth, u_field, u_air, path, terms, sum, t, next);
+      t = next;
+    }
     // A ray of no length (the rim of the shell) keeps what is at its start.
     if (t > 0.0) store(id, slice, airMeanSource(sum.light, sum.depth), airMeanSource(sum.peak, sum.depth), sum.depth / t);
     else store(id, slice, here.light * scale, here.peak * scale, here.extinction);

@@ -21,9 +21,11 @@ void main() {
   AirSum sum = airNothing();
   float t = 0.0;
   for (uint slice = 1u; slice < kDiffuseSlices; ++slice) {
-    float next = end * airSliceAt(spacing, float(slice) / float(kDiffuseSlices - 1u));
-    sum = airStretch(u_sunDepth, u_field, u_air, path, terms, sum, t, next);
-    t = next;
+    for (int piece = 1; piece <= VIEW_PIECES; ++piece) {
+      float next = end * airSliceAt(spacing, (float(slice - 1u) + float(piece) / float(VIEW_PIECES)) / float(kDiffuseSlices - 1u));
+      sum = airStretch(u_sunDepth, u_field, u_air, path, terms, sum, t, next);
+      t = next;
+    }
     if (t > 0.0) source = airMeanSource(sum.light, sum.depth);
     imageStore(u_out, ivec3(id, slice), vec4(source, 0.0));
   }

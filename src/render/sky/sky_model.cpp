@@ -57,7 +57,7 @@ Result<SkyModel> skyModel(const Scene& scene) {
   } else if (m.name == "tables-2d") {
     m.degree = m.zonal = 2;
     m.sunTexels = 32, m.altitudeTexels = 16;
-    m.above = 4, m.below = 3, m.azimuths = 4;
+    m.above = 4, m.below = 4, m.azimuths = 4;
     m.peakAngles = 6, m.peakAzimuths = 4;
     m.pieces = 6;
     m.maxOrders = 20, m.rest = 1e-2;

@@ -139,13 +139,16 @@ Result<void> SkyTables::compute() {
   pointDepth_.bind(WK_SKY_TRANSMITTANCE_UNIT);
   if (discDepth_.id() != 0)
     if (auto r = run("pass/sky/sunlight.comp", discDepth_); !r) return r;
+  const std::string pieces = block_.params.hazeTop > 0 ? "3" : "1";  // thick air hides most of a path: its light comes from a few slices
   gpu::Defines defines = defines_;
+  defines.emplace_back("VIEW_PIECES", pieces);
   defines.insert(defines.end(), {{"SINGLE", "1"}, {"DIFFUSE", "0"}, {"VIEW_DIFFUSE", model_.diffuse() ? "1" : "0"}});
   auto view = gpu::Program::compute("pass/sky/view.comp", defines);
   if (!view) return view.error();
   viewProgram_ = std::move(*view);
   if (!model_.diffuse()) return {};
   defines = defines_;
+  defines.emplace_back("VIEW_PIECES", pieces);
   defines.insert(defines.end(), {{"SINGLE", "0"}, {"DIFFUSE", "1"},
                                  {"READ_DEGREE", std::to_string(std::min(model_.degree, 2))},
                                  {"READ_ZONAL", std::to_string(std::min(model_.zonal, 6))}});

@@ -53,9 +53,9 @@ inline std::vector<ShaderVariant> shaderTable() {
     for (const char* pass : {"transmittance", "sunlight", "project", "store"}) sky(pass, {{"SINGLE", "0"}, {"DIFFUSE", "0"}});
     sky("gather", {{"SINGLE", "1"}, {"DIFFUSE", "0"}, {"PIECES", "8"}});
     sky("gather", {{"SINGLE", "0"}, {"DIFFUSE", "1"}, {"PIECES", "8"}});
-    sky("view_diffuse", {{"SINGLE", "0"}, {"DIFFUSE", "1"}, {"READ_DEGREE", "2"}, {"READ_ZONAL", peak < 0 ? "2" : "6"}});
+    sky("view_diffuse", {{"SINGLE", "0"}, {"DIFFUSE", "1"}, {"READ_DEGREE", "2"}, {"READ_ZONAL", peak < 0 ? "2" : "6"}, {"VIEW_PIECES", peak < 0 ? "1" : "3"}});
     for (const char* diffuse : {"0", "1"}) {
-      sky("view", {{"SINGLE", "1"}, {"DIFFUSE", "0"}, {"VIEW_DIFFUSE", diffuse}});
+      sky("view", {{"SINGLE", "1"}, {"DIFFUSE", "0"}, {"VIEW_DIFFUSE", diffuse}, {"VIEW_PIECES", peak < 0 ? "1" : "3"}});
       sky("probe", {{"SINGLE", "1"}, {"DIFFUSE", diffuse}, {"PIECES", "6"}, {"STRETCHES", "16"}});
     }
   }

@@ -31,7 +31,7 @@ struct AirParams {
   float altitudeScale_m, altitudeNorm;   // of altitudeCoord
   float sunBend, sunNight;               // of sunCoord
   float sunCos, sunSin;                  // of the sun's angular radius
-  float spare;
+  float hazeTop;                         // 0..1: how far up the air hides what is below (air.cpp)
 };
 
 // What look-ups need of the camera the view tables were made for. The anchor is the camera, or outside the shell the ray's entry.
