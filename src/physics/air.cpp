@@ -8,6 +8,8 @@
 namespace welkin {
 namespace {
 
+constexpr double kNothing = 1e-8;  // optical depth of the longest path that counts as none: 1/4000 of 16 bits
+
 Result<void> setProfile(shared::AirLayer& out, const AirLayer& in) {
   const auto wrong = [&](const char* what) { return Error{"atmosphere layer '" + in.name + "': " + what}; };
   if (const auto* e = std::get_if<ExponentialProfile>(&in.profile)) {
@@ -88,6 +90,23 @@ double layerThickness_m(const AirLayer& layer) {
   return u.top_m - u.base_m;
 }
 
+double airTop_m(const Scene& scene) {
+  const Atmosphere& a = *scene.atmosphere;
+  double top = 0;
+  for (const AirLayer& layer : a.layers) {
+    double greatest = 0;
+    for (std::size_t c = 0; c < 3; ++c) greatest = std::max(greatest, layer.scattering_per_m[c] + layer.absorption_per_m[c]);
+    if (const auto* e = std::get_if<ExponentialProfile>(&layer.profile)) {
+      // A path that touches altitude h meets exp(-h / H) times sqrt(2 pi r H) (Chapman) of air, where that is flat; else less than 2 H more.
+      const double path = std::sqrt(2 * std::numbers::pi * (scene.planet.radius_m + a.top_m) * e->scaleHeight_m) + 2 * e->scaleHeight_m;
+      top = std::max(top, e->scaleHeight_m * std::log(std::max(greatest * path / kNothing, 1.0)));
+    }
+    if (const auto* t = std::get_if<TentProfile>(&layer.profile)) top = std::max(top, t->peak_m + t->halfWidth_m);
+    if (const auto* u = std::get_if<UniformProfile>(&layer.profile)) top = std::max(top, u->top_m);
+  }
+  return top > 0 ? std::min(top, a.top_m) : a.top_m;
+}
+
 Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
   if (!scene.atmosphere) return Error{"the scene has no atmosphere"};
   const Atmosphere& atmosphere = *scene.atmosphere;
@@ -99,7 +118,8 @@ Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
   shared::AirBlock block{};
   shared::AirParams& p = block.params;
   p.radius_m = static_cast<float>(scene.planet.radius_m);
-  p.top_m = static_cast<float>(atmosphere.top_m);
+  const double top_m = airTop_m(scene);
+  p.top_m = static_cast<float>(top_m);
   p.layerCount = static_cast<std::uint32_t>(atmosphere.layers.size());
   p.peakLayer = shared::kNoLayer;
   if (scene.sun) {
@@ -113,13 +133,13 @@ Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
   p.albedoB = static_cast<float>(scene.planet.albedo[2]);
   p.sunCos = std::cos(p.sunRadius_rad);
   p.sunSin = std::sin(p.sunRadius_rad);
-  double scale_m = atmosphere.top_m;
+  double scale_m = top_m;
   for (const AirLayer& layer : atmosphere.layers) scale_m = std::min(scale_m, layerThickness_m(layer));
   p.altitudeScale_m = static_cast<float>(scale_m);
-  p.altitudeNorm = static_cast<float>(1 / std::log1p(atmosphere.top_m / scale_m));
+  p.altitudeNorm = static_cast<float>(1 / std::log1p(top_m / scale_m));
   // A point sees light that was scattered once while the sun is less than twice the dip of the shell's horizon below its own; three
   // times leaves room for higher orders, of which four dips away nothing is left.
-  const double dip = std::acos(scene.planet.radius_m / (scene.planet.radius_m + atmosphere.top_m));
+  const double dip = std::acos(scene.planet.radius_m / (scene.planet.radius_m + top_m));
   p.sunNight = static_cast<float>(std::sin(std::min(3 * dip, std::numbers::pi / 2)));
   p.sunBend = 3;
   float strongest = 0;
@@ -136,9 +156,9 @@ Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
   // Of the shell's height, where an optical depth of 1 (550 nm) lies above: paths from higher up end near there, not at the ground.
   if (p.layerCount > 0 && scene.planet.radius_m > 0) {
     const auto above = [&](double h) { return shared::airOpticalDepthToTop(block, static_cast<float>(h), 1, 40).y; };
-    double low = 0, high = above(0) > 1 ? atmosphere.top_m : 0;
+    double low = 0, high = above(0) > 1 ? top_m : 0;
     for (int i = 0; i < 20; ++i) (above(0.5 * (low + high)) > 1 ? low : high) = 0.5 * (low + high);
-    block.params.hazeTop = static_cast<float>(std::min(3 * high / atmosphere.top_m, 1.0));
+    block.params.hazeTop = static_cast<float>(std::min(3 * high / top_m, 1.0));
   }
   return block;
 }

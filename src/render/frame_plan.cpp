@@ -1,5 +1,8 @@
 #include "welkin/render/frame_plan.h"
 
+#include <cmath>
+
+#include "welkin/physics/air.h"
 #include "welkin/render/sky/sky_model.h"
 
 namespace welkin {
@@ -22,6 +25,8 @@ FramePlan planFrame(const Scene& scene) {
     plan.leftOut.push_back({"metering, adaptation of the exposure", plan.sun ? "the scene's exposure is a number" : "no sun in the scene: nothing to adapt to"});
   if (plan.air) {
     plan.passes.emplace_back("sky");
+    if (airTop_m(scene) < scene.atmosphere->top_m)
+      plan.leftOut.push_back({"air above " + std::to_string(std::lround(airTop_m(scene) / 1000)) + " km", "the longest path through it has an optical depth below 1e-8"});
     if (const auto model = skyModel(scene)) {
       plan.skyModel = model->name, plan.skyReason = model->reason;
       if (!model->diffuse())

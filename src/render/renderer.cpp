@@ -1,3 +1,4 @@
+#include "welkin/physics/air.h"
 #include "welkin/render/renderer.h"
 
 #include <fmt/format.h>
@@ -78,7 +79,7 @@ struct Renderer::Impl {
 
   Result<void> create();
   void note(std::string line) { notes.push_back(std::move(line)); }
-  double shellTop_m() const { return plan.air ? scene.atmosphere->top_m : source ? std::max(source->top_m(), 1.0) : 1.0; }
+  double shellTop_m() const { return plan.air ? airTop_m(scene) : source ? std::max(source->top_m(), 1.0) : 1.0; }
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
   void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats);
   float greatestDetail = 1e6f;      // of this picture's pixels

@@ -23,7 +23,7 @@ bool peakedLayer(const AirLayer& l) {
 double longestDepth(const Scene& scene) {
   Spectrum3 sum{0, 0, 0};
   for (const AirLayer& l : scene.atmosphere->layers) {
-    const double h = std::min(layerThickness_m(l), scene.atmosphere->top_m);
+    const double h = std::min(layerThickness_m(l), airTop_m(scene));
     const double path = 2 * std::sqrt(h * (2 * scene.planet.radius_m + h));
     for (std::size_t c = 0; c < 3; ++c) sum[c] += l.scattering_per_m[c] * path;
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "welkin/physics/air.h"
 #include "welkin/shared/bindings.glsl.h"
 
 namespace welkin {
@@ -94,7 +95,7 @@ Result<std::vector<ProbeResult>> probeSky(gpu::MemoryAccount& account, SkyTables
   if (!program) return program.error();
   const std::vector<double> corners = cornerAltitudes(*scene.atmosphere);
   std::vector<ProbePath> paths;
-  for (const ProbeRay& ray : rays) paths.push_back(probePath(scene.planet.radius_m, scene.atmosphere->top_m, corners, ray));
+  for (const ProbeRay& ray : rays) paths.push_back(probePath(scene.planet.radius_m, airTop_m(scene), corners, ray));
   auto in = gpu::Buffer::create(account, "probe", std::max<std::size_t>(paths.size(), 1) * sizeof(ProbePath));
   if (!in) return in.error();
   auto out = gpu::Buffer::create(account, "probe", std::max<std::size_t>(paths.size(), 1) * 2 * sizeof(glm::vec4));

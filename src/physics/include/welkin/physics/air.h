@@ -9,6 +9,10 @@ namespace welkin {
 // Scale height, half width of a tent, or height of a uniform layer.
 double layerThickness_m(const AirLayer& layer);
 
+// Height of the shell that is drawn, m: the atmosphere's top_m, or where above it nothing is left to see: the longest path through the
+// rest has an optical depth below 1e-8.
+double airTop_m(const Scene& scene);
+
 // Lengths in metres, coefficients in 1/m at 680, 550, 440 nm. No sun: its irradiance is 0. The view frame is left zero. Fails in one line
 // without an atmosphere, with more than six layers, or with values out of range. The layer with the sharpest phase function
 // (Henyey-Greenstein or Cornette-Shanks with |g| > 0.3; of several the one that scatters most) becomes `peakLayer`.
