@@ -29,6 +29,7 @@ NIGHT = 1e-6  # of the brightest limb or disc by day; the reference finds below 
 CREATED = 1e-3  # energy of a furnace over 1
 LOST = {"tables-4d": 0.01, "tables-2d": 0.015}  # of it, as the light of limb and disc may err; media that are not promised may lose more
 QUADRATURE = 5e-3  # error of the furnace's quadrature beyond which it proves nothing: ten times what it is
+COST_RUNS = 5
 WALL_S = {"tables-4d": (15, "3 s wanted"), "tables-2d": (0.06, None)}
 
 
@@ -242,25 +243,29 @@ def check_furnace(c):
 
 
 def check_cost(c):
-    file = os.path.join(c.out, "tables.json")
-    try:
-        done = subprocess.run([c.welkin, "info", "--tables", "--json", file], capture_output=True, text=True, cwd=sky.REPOSITORY, check=False)
-        with open(file, encoding="utf-8") as f:
-            data = json.load(f)
-    except (OSError, ValueError) as e:
-        data = {}
-        c.line("cost of the tables: welkin info --tables --json", getattr(e, "strerror", None) or str(e), "exit 0", False)
-    else:
+    """The least of a few runs: what else the machine does only adds."""
+    file, found = os.path.join(c.out, "tables.json"), {}
+    for _ in range(COST_RUNS):
+        try:
+            done = subprocess.run([c.welkin, "info", "--tables", "--json", file], capture_output=True, text=True, cwd=sky.REPOSITORY, check=False)
+            with open(file, encoding="utf-8") as f:
+                data = json.load(f)
+        except (OSError, ValueError) as e:
+            c.line("cost of the tables: welkin info --tables --json", getattr(e, "strerror", None) or str(e), "exit 0", False)
+            break
         if done.returncode:
             c.line("cost of the tables: welkin info --tables --json", (done.stderr.strip().splitlines() or ["exit 1"])[-1], "exit 0", False)
-    tables = {row["model"]: row for row in data.get("tables", [])}
-    c.details["tables"] = list(tables.values())
+            break
+        for row in data.get("tables", []):
+            found.setdefault(row["model"], []).append(row)
+    c.details["tables"] = [{**rows[0], "wall_s": [rounded(r["wall_s"]) for r in rows]} for rows in found.values()]
     for method in c.methods:
         if method in WALL_S:
             limit, note = WALL_S[method]
-            row = tables.get(method)
-            name = f"{method}: tables made, s, {row['bytes'] / 2**20:.1f} MiB" if row else f"{method}: tables made, s"
-            c.line(name, row["wall_s"] if row else "not measured", f"at most {limit:g}{f'; {note}' if note else ''}", bool(row) and row["wall_s"] <= limit)
+            rows = found.get(method)
+            name = f"{method}: tables made, s, least of {COST_RUNS}" + (f", {rows[0]['bytes'] / 2**20:.1f} MiB" if rows else "")
+            least = min(r["wall_s"] for r in rows) if rows else None
+            c.line(name, least if rows else "not measured", f"at most {limit:g}{f'; {note}' if note else ''}", bool(rows) and least <= limit)
 
 
 GROUPS = {"accuracy": check_accuracy, "night": check_night, "robust": check_robust, "furnace": check_furnace, "cost": check_cost}

@@ -270,7 +270,7 @@ def ray_files():
 
 def group(name, quantity, part, rays, scene_name, orders=None, **more):
     """`limits`: rms in percent by method; `max_percent`: the same for the worst ray and wavelength; `published`: the best of its kind, percent.
-    `truth_percent`: what the truth's standard error must be a third of, the least limit."""
+    `truth_percent`: what the truth's standard error must be a fifth of, the least limit."""
     return {"name": name, "quantity": quantity, "part": part, "rays": rays, "scene": scene_name, "orders": orders, **more}
 
 

@@ -2,7 +2,7 @@
 """make_truth.py --build BUILD [--only GROUPS] [--threads N] [--force]: the truth of the sky, tests/truth/sky/*.csv.
 
 Each group of benchmarks/sky/groups.json is answered by `welkin probe --method reference`: single scattering by quadrature, all orders
-by path tracing until the standard error of every ray is a third of the least limit that the group is held to. truth.json remembers of
+by path tracing until the standard error of every ray is a fifth of the least limit that the group is held to. truth.json remembers of
 what (SHA-256 of scene, rays, orders, version of the method) and what came out (SHA-256 of the file); what has not changed is not redone.
 """
 

@@ -38,7 +38,8 @@ class Truth(unittest.TestCase):
                     self.assertEqual(float(a[column] or -1), float(b[column] or -1), group["name"])
 
     def test_standard_errors(self):
-        """A third of the least limit, of the radiance or of what it is a share of where it is less."""
+        """A third of the least limit at most, and what was asked, of the radiance or of its floor where it is less."""
+        self.assertLessEqual(make_truth.SHARE, 1 / 3)
         for group in sky.groups():
             if group["orders"] == 1:
                 continue
