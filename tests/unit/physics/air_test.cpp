@@ -60,8 +60,11 @@ TEST(Phase, IntegratesToOneOverTheSphere) {
 TEST(Air, VerticalColumnOfExponentialAir) {
   for (const double scale : {1200.0, 8000.0}) {
     const AirBlock air = blockOf({"air", ExponentialProfile{scale}, {1e-5, 2e-5, 4e-5}, {1e-6, 0, 0}, PhaseType::Rayleigh, 0});
+    // 1200 m times the logarithm of 4e-5 / m times 223 km, the longest path at the ground, over 1e-8: 20.61
+    EXPECT_NEAR(air.params.top_m, scale == 1200 ? 24'730 : 100'000, 10) << "where the longest path through the rest has a depth of 1e-8";
     for (const double h : {0.0, 500.0, 9000.0, 60'000.0}) {
-      const double column = scale * (std::exp(-h / scale) - std::exp(-100'000 / scale));
+      if (h > air.params.top_m) continue;
+      const double column = scale * (std::exp(-h / scale) - std::exp(-air.params.top_m / scale));
       const glm::vec3 depth = airOpticalDepthToTop(air, static_cast<float>(h), 1, 40);
       // 40 two-point panels: the quadrature errs by less than 1e-4 here, floats by 1e-6
       EXPECT_NEAR(depth.x / (1.1e-5 * column), 1, 1e-4) << scale << " " << h;
