@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "probe_clouds.h"
 #include "welkin/app/probe_csv.h"
 #include "welkin/core/files.h"
 #include "welkin/core/log.h"
@@ -50,10 +51,16 @@ Result<Probed> probeReference(const Scene& scene, const std::vector<ProbeRay>& r
 
 Result<Probed> probeTables(Scene scene, const std::vector<ProbeRay>& rays, const ProbeOptions& o) {
   if (o.paths.maxOrders > 1) return Error{"methods other than reference know --orders 1 and all orders"};
-  if (!scene.atmosphere) return Error{fmt::format("{}: the scene has no atmosphere", o.scene.string())};
+  if (!scene.atmosphere && !scene.clouds) return Error{fmt::format("{}: the scene has neither air nor clouds", o.scene.string())};
+  if (scene.atmosphere) scene.atmosphere->model = o.method;
+  if (scene.clouds) {
+    if (o.paths.maxOrders == 1) return Error{fmt::format("{}: the scene has clouds, whose light is not told apart by orders", o.scene.string())};
+    auto results = probeClouds(scene, rays, o.common);
+    if (!results) return Error{fmt::format("{}: {}", o.scene.string(), results.error().message)};
+    return Probed{std::move(*results), false};
+  }
   auto context = gpu::Context::createHeadless(o.common.gpu);
   if (!context) return context.error();
-  scene.atmosphere->model = o.method;
   scene.sun = scene.sun.value_or(Sun{});
   gpu::MemoryAccount account(scene.quality.budget_bytes);
   auto tables = SkyTables::create(account, scene, o.paths.maxOrders == 1 ? SkyOrders::First : SkyOrders::All);
@@ -70,7 +77,7 @@ Result<void> runProbe(const ProbeOptions& o) {
   }
   auto scene = loadScene(o.scene);
   if (!scene) return scene.error();
-  if (scene->clouds) log::warn("the scene's clouds are left out: probe is of the clear air");
+  if (scene->clouds && o.method == "reference") log::warn("the scene's clouds are left out: the reference is of the clear air");
   auto table = readProbeTable(o.rays);
   if (!table) return table.error();
   auto probed = o.method == "reference" ? probeReference(*scene, table->rays, o) : probeTables(*scene, table->rays, o);
@@ -85,10 +92,10 @@ Result<void> runProbe(const ProbeOptions& o) {
 
 void addProbe(CLI::App& app, Action& action) {
   auto o = std::make_shared<ProbeOptions>();
-  auto* command = app.add_subcommand("probe", "radiance and transmittance along rays through the clear air, for a solar irradiance of 1");
+  auto* command = app.add_subcommand("probe", "radiance and transmittance along rays, for a solar irradiance of 1");
   command->footer(
       "Rays are rows of a CSV: altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg[,max_distance_m]\n"
-      "[,latitude_deg,longitude_deg], in any order. Clouds of the scene are left out.\n"
+      "[,latitude_deg,longitude_deg], in any order. Clouds of the scene are on the ray, but not by the reference.\n"
       "Example:\n  welkin probe scenes/earth.json --rays rays.csv -o sky.csv --method reference --orders 1");
   command->add_option("SCENE", o->scene, "a scene (JSON)")->required();
   command->add_option("--rays", o->rays, "the rays, CSV")->required();
