@@ -9,7 +9,6 @@
 namespace welkin::app {
 namespace {
 
-constexpr double kEye_m = 0.001;      // least altitude: rounding must not put the observer below the ground
 constexpr double kStep = 0.05;        // of the march: a probe measures, and one pixel is cheap; the default is up to 0.04 off in transmittance
 constexpr double kPixel_deg = 0.001;  // of the picture: 1.7 mm a kilometre away
 
@@ -29,7 +28,7 @@ Directions directionsOf(const ProbeRay& ray) {
 
 View pixelView(const Scene& scene, const ProbeRay& ray, const Directions& d) {
   View view;
-  view.position_m = d.up * (scene.planet.radius_m + std::max(ray.altitude_m, kEye_m));
+  view.position_m = d.up * (scene.planet.radius_m + ray.altitude_m);
   const glm::dvec3 across = std::abs(d.view.z) < 0.7 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);  // any that is not along the ray
   view.orientation = glm::quatLookAt(glm::normalize(d.view), across);
   view.fov_deg = kPixel_deg;

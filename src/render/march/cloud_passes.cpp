@@ -14,17 +14,22 @@ constexpr int kOrder[16][2] = {{0, 0}, {2, 2}, {2, 0}, {0, 2}, {1, 1}, {3, 3}, {
 shared::dvec4 pack(glm::dvec3 v, double w) { return {v.x, v.y, v.z, w}; }
 unsigned groups(int pixels, int size) { return static_cast<unsigned>((pixels + size - 1) / size); }
 
+constexpr double kLeastEye_m = 0.001;
+
 }  // namespace
 
 ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, int width, int height) {
   ViewFrame f;
   f.position_m = view.position_m;
+  // A camera on the ground or below it stands on it: rounding must not put its eye inside.
+  const double least = planetRadius_m + kLeastEye_m, from = glm::length(view.position_m);
+  if (from < least) f.position_m = from > 0 ? view.position_m * (least / from) : glm::dvec3(0, 0, least);
   f.forward = view.orientation * glm::dvec3(0, 0, -1);
   f.right = view.orientation * glm::dvec3(1, 0, 0);
   f.up = view.orientation * glm::dvec3(0, 1, 0);
   f.tanY = std::tan(view.fov_deg * (3.14159265358979323846 / 360));
   f.tanX = f.tanY * width / height;
-  const double r = glm::length(view.position_m);
+  const double r = glm::length(f.position_m);
   f.block.position = pack(f.position_m, r - planetRadius_m);
   f.block.forward = pack(f.forward, planetRadius_m);
   f.block.right = pack(f.right * f.tanX, shellTop_m);

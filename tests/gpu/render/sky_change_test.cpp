@@ -1,4 +1,4 @@
-// Air that changes while it is drawn, fields kept on disk, and which model is taken.
+// Air that changes while it is drawn, fields kept on disk, which model is taken, and a camera below the ground.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -42,6 +42,21 @@ Scene hazy() {
   scene.planet.albedo = {0.5, 0.3, 0.1};
   scene.sun->irradiance = {2, 1, 1};
   return scene;
+}
+
+// On the ground, below it, even in the planet's centre: as from the ground, never from inside.
+TEST_F(SkyChange, CameraBelowTheGroundStandsOnIt) {
+  auto renderer = Renderer::create(*context, skyScene(60 * kDegree), small());
+  ASSERT_TRUE(renderer.ok());
+  View view = eye();
+  const auto from = [&](double altitude_m) {
+    view.position_m = {0, 0, 6'360'000 + altitude_m};
+    (*renderer)->frame(view);
+    return (*renderer)->radiance().rgba;
+  };
+  const auto ground = from(0.001);
+  for (const double altitude : {0.0, -1e-9, -10.0, -6'360'000.0}) EXPECT_EQ(from(altitude), ground) << altitude;
+  EXPECT_NE(from(2000), ground);
 }
 
 // The new light is the one of a fresh start, and on the way there the old one is drawn, a slice of work a frame.
