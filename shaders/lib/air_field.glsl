@@ -69,7 +69,8 @@ vec2 fieldTexel(AirParams air, vec2 size, float altitude_m, float muSun) {
 // Where the table has the moment lm.
 int momentLayer(int l, int m) { return l <= FIELD_DEGREE ? l * (l + 1) / 2 + m : kFieldCount - 1 - FIELD_ZONAL + l; }
 
-// Radiance scattered per metre; FIELD_SIGNED: with the dips of the cut series, without which its mean would be too bright. weight[l]: sum over layers of scattering [1/m] times chi_l. READ_DEGREE, READ_ZONAL: how much of the series.
+// Radiance scattered per metre. weight[l]: sum over layers of scattering [1/m] times chi_l. READ_DEGREE, READ_ZONAL: how much of the series;
+// FIELD_SIGNED: with the dips below 0 of the cut series, without which its mean would be too bright.
 vec3 fieldSource(sampler2DArray field, vec2 uv, vec3 weight[FIELD_ZONAL + 1], float y[kFieldCount], float turn[5]) {
   vec3 sum = weight[0] * y[0];
   for (int l = 1; l <= READ_ZONAL; ++l) {

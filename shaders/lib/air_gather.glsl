@@ -1,7 +1,7 @@
 // Directions in which a point of the field's table looks, and their weights.
 #include "lib/air_path.glsl"
 
-// Counts first come directions about the vertical (x: -1..1 of the angle from the horizon, below it negative; y: cosine of the azimuth
+// First in the list come directions about the vertical (x: -1..1 of the angle from the horizon, below it negative; y: cosine of the azimuth
 // from the sun; z: weight), then directions about the sun for each peaked layer (x: cosine from the sun; y: cosine of the azimuth about it;
 // z: weight with the layer's phase function in it; w: the layer).
 struct GatherDirection {

@@ -10,6 +10,7 @@
 #include "welkin/core/files.h"
 #include "welkin/core/units.h"
 #include "welkin/gpu/timer.h"
+#include "welkin/physics/air.h"
 #include "welkin/physics/scene_io.h"
 #include "welkin/render/sky/sky_field.h"
 #include "welkin/render/sky/sky_tables.h"
@@ -36,16 +37,11 @@ constexpr Limit kLimits[] = {{"max_texture_size", GL_MAX_TEXTURE_SIZE},
                              {"max_compute_work_group_invocations", GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS},
                              {"max_compute_texture_image_units", GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS}};
 
-// The Earth's air, as published comparisons of skies use it.
+// A planet with the Earth's air.
 Scene clearEarth() {
   Scene scene;
   scene.planet = {6'360'000, {0.3, 0.3, 0.3}, {}};
-  scene.atmosphere = Atmosphere{
-      100'000,
-      "auto",
-      {{"rayleigh", ExponentialProfile{8000}, {5.802e-6, 13.558e-6, 33.1e-6}, {}, PhaseType::Rayleigh, 0},
-       {"mie", ExponentialProfile{1200}, {3.996e-6, 3.996e-6, 3.996e-6}, {0.444e-6, 0.444e-6, 0.444e-6}, PhaseType::CornetteShanks, 0.8},
-       {"ozone", TentProfile{25'000, 15'000}, {}, {0.650e-6, 1.881e-6, 0.085e-6}, PhaseType::Isotropic, 0}}};
+  scene.atmosphere = earthAir();
   scene.sun = Sun{};
   return scene;
 }

@@ -77,11 +77,19 @@ Result<shared::AirLayer> layerOf(const AirLayer& in, int degree) {
   return out;
 }
 
-bool peaked(const shared::AirLayer& l) {
+}  // namespace
+
+bool isPeaked(const shared::AirLayer& l) {
   return (l.phase == shared::kPhaseCornetteShanks || l.phase == shared::kPhaseHenyeyGreenstein) && std::abs(l.g) > 0.3f;
 }
 
-}  // namespace
+Atmosphere earthAir() {
+  return {100'000,
+          "auto",
+          {{"rayleigh", ExponentialProfile{8000}, {5.802e-6, 13.558e-6, 33.1e-6}, {}, PhaseType::Rayleigh, 0},
+           {"mie", ExponentialProfile{1200}, {3.996e-6, 3.996e-6, 3.996e-6}, {0.444e-6, 0.444e-6, 0.444e-6}, PhaseType::CornetteShanks, 0.8},
+           {"ozone", TentProfile{25'000, 15'000}, {}, {0.650e-6, 1.881e-6, 0.085e-6}, PhaseType::Isotropic, 0}}};
+}
 
 double layerThickness_m(const AirLayer& layer) {
   if (const auto* e = std::get_if<ExponentialProfile>(&layer.profile)) return e->scaleHeight_m;
@@ -147,7 +155,7 @@ Result<shared::AirBlock> airBlock(const Scene& scene, int degree) {
     auto layer = layerOf(atmosphere.layers[i], degree);
     if (!layer) return layer.error();
     block.layers[i] = *layer;
-    if (!peaked(*layer) || layer->scatteringG <= strongest) continue;
+    if (!isPeaked(*layer) || layer->scatteringG <= strongest) continue;
     strongest = layer->scatteringG;
     p.peakLayer = i;
     p.peakPhase = layer->phase;

@@ -2,6 +2,7 @@
 // A whole planet that a test can afford: procedural weather (no data file), default layers, air, sun, a small budget.
 #include <cmath>
 
+#include "welkin/physics/air.h"
 #include "welkin/physics/scene.h"
 #include "welkin/physics/scene_io.h"
 
@@ -13,12 +14,7 @@ inline Scene smallEarth() {
   Scene scene;
   scene.name = "small Earth";
   scene.planet.radius_m = kEarthRadius_m;
-  scene.atmosphere = Atmosphere{
-      100'000,
-      "auto",
-      {{"rayleigh", ExponentialProfile{8000}, {5.802e-6, 13.558e-6, 33.1e-6}, {}, PhaseType::Rayleigh, 0},
-       {"mie", ExponentialProfile{1200}, {3.996e-6, 3.996e-6, 3.996e-6}, {0.444e-6, 0.444e-6, 0.444e-6}, PhaseType::CornetteShanks, 0.8},
-       {"ozone", TentProfile{25'000, 15'000}, {}, {0.650e-6, 1.881e-6, 0.085e-6}, PhaseType::Isotropic, 0}}};
+  scene.atmosphere = earthAir();
   scene.sun = Sun{};
   scene.sun->direction_planet = directionTo(20, -30);
   scene.clouds = Clouds{{LayersSource{}}, true};

@@ -1,5 +1,5 @@
-// Radiance that points of the field's table see, one invocation for a point and a direction: of the first order (SINGLE), or of the next
-// one, whose source is the order before (DIFFUSE).
+// Radiance that points of the field's table see, one invocation for a point and a direction: light scattered once (SINGLE), or light of the
+// field scattered once more (DIFFUSE).
 #define FIELD_SIGNED 1  // orders keep the energy of the ones before
 #include "lib/air_gather.glsl"
 #include "welkin/shared/bindings.glsl.h"

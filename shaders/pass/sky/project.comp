@@ -9,7 +9,7 @@ layout(std430, binding = 2) writeonly buffer Moments { vec4 moments[]; };  // [m
 uniform ivec3 u_size;
 uniform int u_aboutVertical;
 
-const float kMostTaken = 0.9;
+const float kMostTaken = 0.9;  // of the mean light: what is left keeps the other moments over it bounded
 
 void main() {
   int point = int(gl_GlobalInvocationID.x), points = u_size.x * u_size.y;

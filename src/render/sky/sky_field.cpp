@@ -1,12 +1,12 @@
 #include "welkin/render/sky/sky_field.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
 
 #include "sky_cache.h"
+#include "welkin/physics/air.h"
 #include "welkin/physics/quadrature.h"
 #include "welkin/shared/bindings.glsl.h"
 
@@ -37,7 +37,7 @@ DirectionList directionList(const SkyModel& model, const AirBlock& air) {
   std::vector<glm::vec4> straightOn;  // what a layer scatters straight on is in the sun's own light: taken off, last
   for (std::uint32_t i = 0; i < air.params.layerCount; ++i) {
     const shared::AirLayer& layer = air.layers[i];
-    if (!SkyModel::peaked(layer.phase, layer.g)) continue;
+    if (!isPeaked(layer)) continue;
     // Angles by the inverse of Henyey and Greenstein's cumulative distribution, so that each node carries the same light of the peak.
     const double g = layer.g;
     const auto first = list.all.size();
@@ -222,7 +222,8 @@ void SkyField::store(const Moments& moments) {
 }
 
 // Light is the fixed point of x -> first order + scattered x. Anderson's acceleration (1965) from steps x_k -> y_k: the combination
-// sum g_k y_k with sum g_k = 1 whose residual sum g_k (y_k - x_k) is least, each wavelength on its own. It is the next x; the error left in it is about the residual over 1 - (how much a step shrinks).
+// sum g_k y_k with sum g_k = 1 whose residual sum g_k (y_k - x_k) is least, each wavelength on its own. It is the next x; the error left
+// in it is about the residual over 1 - (how much a step shrinks).
 SkyField::Moments SkyField::extrapolate() {
   const std::size_t n = steps_.size(), count = first_.size(), lit = points();
   const Moments& last = steps_.back().to;

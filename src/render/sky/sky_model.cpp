@@ -2,28 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "welkin/physics/air.h"
-#include "welkin/shared/phase.glsl.h"
 
 namespace welkin {
 
-bool SkyModel::peaked(std::uint32_t phase, float g) {
-  return (phase == shared::kPhaseCornetteShanks || phase == shared::kPhaseHenyeyGreenstein) && std::abs(g) > 0.3f;
-}
-
 namespace {
-
-bool peakedLayer(const AirLayer& l) {
-  return (l.phase == PhaseType::CornetteShanks || l.phase == PhaseType::HenyeyGreenstein) && SkyModel::peaked(shared::kPhaseHenyeyGreenstein, float(l.g));
-}
 
 // Scattering optical depth of the longest path there is, the one that touches the ground, both ways out; the greatest of the three
 // wavelengths. Each layer as if it were full up to its thickness: a bound of the order of the true value.
 double longestDepth(const Scene& scene) {
+  const double top_m = airTop_m(scene);
   Spectrum3 sum{0, 0, 0};
   for (const AirLayer& l : scene.atmosphere->layers) {
-    const double h = std::min(layerThickness_m(l), airTop_m(scene));
+    const double h = std::min(layerThickness_m(l), top_m);
     const double path = 2 * std::sqrt(h * (2 * scene.planet.radius_m + h));
     for (std::size_t c = 0; c < 3; ++c) sum[c] += l.scattering_per_m[c] * path;
   }
@@ -35,7 +28,9 @@ constexpr double kThin = 1e-3;  // what such air adds by scattering once is 1/10
 }  // namespace
 
 Result<SkyModel> skyModel(const Scene& scene) {
-  if (!scene.atmosphere) return Error{"the scene has no atmosphere"};
+  const auto air = airBlock(scene);
+  if (!air) return air.error();
+  const bool peaked = std::any_of(std::begin(air->layers), std::begin(air->layers) + air->params.layerCount, isPeaked);
   SkyModel m;
   m.name = scene.atmosphere->model;
   m.reason = "the scene asks for it";
@@ -44,9 +39,7 @@ Result<SkyModel> skyModel(const Scene& scene) {
   } else if (m.name == "auto") {
     m.name = "tables-4d", m.reason = "auto: the air stays as it is, so the most exact is paid once";
   }
-  const auto& layers = scene.atmosphere->layers;
-  const bool peaked = std::any_of(layers.begin(), layers.end(), peakedLayer);
-  // The numbers are where halving a model's error would double its time (docs/sky.md).
+  // Measured: docs/decisions/0011.
   if (m.name == "tables-4d") {
     m.degree = peaked ? 4 : 2, m.zonal = peaked ? 12 : 2;
     m.sunTexels = 48, m.altitudeTexels = 22;

@@ -30,7 +30,7 @@ std::vector<double> cornerAltitudes(const Atmosphere& atmosphere) {
 }
 
 // The ray from where it enters the shell, and the places where the path or its light has a kink: lowest point, edges of the planet's
-// shadow. All in double. `length` 0: the ray misses the air.
+// shadow. All in double. A ray that misses the air has no length.
 ProbePath probePath(double radius, double top, const std::vector<double>& corners, const ProbeRay& ray) {
   const double observer = std::max(ray.altitude_m, 0.0);
   double muView = std::cos(ray.viewZenith_rad), muSun = std::cos(ray.sunZenith_rad);

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <span>
 #include <string>
 
-#include "welkin/render/sky/sky_field.h"
 #include "welkin/physics/air.h"
+#include "welkin/render/sky/sky_field.h"
 #include "welkin/shared/bindings.glsl.h"
 
 namespace welkin {
@@ -25,7 +24,7 @@ gpu::Defines layerDefines(const AirBlock& block, const SkyModel& model) {
     const shared::AirLayer& layer = block.layers[i];
     const bool scatters = i < block.params.layerCount && layer.scatteringR + layer.scatteringG + layer.scatteringB > 0;
     const int degree = layer.phase == kPhaseIsotropic ? 0 : layer.phase == kPhaseRayleigh ? 2 : model.zonal;
-    if (i < block.params.layerCount && SkyModel::peaked(layer.phase, layer.g)) peaked |= 1u << i;
+    if (i < block.params.layerCount && isPeaked(layer)) peaked |= 1u << i;
     defines.emplace_back("AIR_PROFILE_" + std::to_string(i), std::to_string(layer.profile) + "u");
     defines.emplace_back("AIR_PHASE_" + std::to_string(i), std::to_string(layer.phase) + "u");
     defines.emplace_back("AIR_DEGREE_" + std::to_string(i), std::to_string(scatters ? degree : -1));
@@ -47,7 +46,7 @@ Result<SkyTables> SkyTables::create(gpu::MemoryAccount& account, const Scene& sc
   return tables;
 }
 
-Result<SkyTables> SkyTables::begin(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
+Result<SkyTables> SkyTables::empty(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
   auto model = skyModel(scene);
   if (!model) return model.error();
   if (orders == SkyOrders::First) model->maxOrders = 1, model->degree = model->zonal = 0;
@@ -59,28 +58,25 @@ Result<SkyTables> SkyTables::begin(gpu::MemoryAccount& account, const Scene& sce
   tables.altitudeStep_m_ = block->params.altitudeScale_m / 1000;
   tables.defines_ = layerDefines(*block, *model);
   if (auto r = tables.allocate(account); !r) return r.error();
-  auto field = SkyField::create(account, *model, *block, tables.defines_);
-  if (!field) return field.error();
-  tables.field_ = std::make_unique<SkyField>(std::move(*field));
   if (auto r = tables.compute(); !r) return r.error();
   return tables;
 }
 
+Result<SkyTables> SkyTables::begin(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
+  auto tables = empty(account, scene, orders);
+  if (!tables) return tables.error();
+  auto field = SkyField::create(account, tables->model_, tables->block_, tables->defines_);
+  if (!field) return field.error();
+  tables->field_ = std::make_unique<SkyField>(std::move(*field));
+  return tables;
+}
+
 Result<SkyTables> SkyTables::withField(gpu::MemoryAccount& account, const Scene& scene, SkyTables& from) {
-  auto model = skyModel(scene);
-  if (!model) return model.error();
-  auto block = airBlock(scene, model->zonal);
-  if (!block) return block.error();
-  SkyTables tables;
-  tables.model_ = *model;
-  tables.block_ = *block;
-  tables.altitudeStep_m_ = block->params.altitudeScale_m / 1000;
-  tables.defines_ = layerDefines(*block, *model);
-  if (model->moments() != from.model_.moments() || model->diffuse() != from.model_.diffuse())
+  auto tables = empty(account, scene, SkyOrders::All);
+  if (!tables) return tables.error();
+  if (tables->model_.moments() != from.model_.moments() || tables->model_.diffuse() != from.model_.diffuse())
     return Error{"the sky's light must be made anew: another model, or other phase functions"};
-  if (auto r = tables.allocate(account); !r) return r.error();
-  if (auto r = tables.compute(); !r) return r.error();
-  tables.field_ = std::move(from.field_);
+  tables->field_ = std::move(from.field_);
   return tables;
 }
 

@@ -17,12 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 inline Scene skyScene(double sunZenith_rad) {
   Scene scene;
   scene.planet.radius_m = 6'360'000;
-  scene.atmosphere = Atmosphere{
-      100'000,
-      "auto",
-      {{"rayleigh", ExponentialProfile{8000}, {5.802e-6, 13.558e-6, 33.1e-6}, {}, PhaseType::Rayleigh, 0},
-       {"mie", ExponentialProfile{1200}, {3.996e-6, 3.996e-6, 3.996e-6}, {0.444e-6, 0.444e-6, 0.444e-6}, PhaseType::CornetteShanks, 0.8},
-       {"ozone", TentProfile{25'000, 15'000}, {}, {0.650e-6, 1.881e-6, 0.085e-6}, PhaseType::Isotropic, 0}}};
+  scene.atmosphere = earthAir();
   scene.sun = Sun{};
   scene.sun->direction_planet = {std::sin(sunZenith_rad), 0, std::cos(sunZenith_rad)};
   return scene;

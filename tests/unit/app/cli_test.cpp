@@ -1,4 +1,5 @@
 // The command line without GL: options, usage errors, and the checks that come before any work.
+#include "run_program.h"
 #include "welkin/app/cli.h"
 
 #include <gmock/gmock.h>
@@ -15,19 +16,7 @@ namespace welkin::app {
 namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-struct Ran {
-  int exit;
-  std::string out, err;
-};
-Ran run(std::vector<const char*> arguments) {
-  arguments.insert(arguments.begin(), "welkin");
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = runProgram(int(arguments.size()), arguments.data());
-  std::fflush(stdout);
-  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
+using test::Ran, test::run;
 void expectUsageError(const Ran& r) {
   EXPECT_EQ(r.exit, 2) << r.err;
   EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;

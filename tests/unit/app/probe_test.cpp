@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "run_program.h"
 #include "welkin/app/cli.h"
 #include "welkin/app/probe_csv.h"
 #include "welkin/core/files.h"
@@ -65,19 +66,7 @@ TEST(ProbeTable, SaysFileLineColumnAndWhatWasExpected) {
     EXPECT_THAT(refusal(h + wrong + ",2,3,4\n"), HasSubstr("line 2: altitude_m: expected metres")) << wrong;
   EXPECT_EQ(refusal("max_distance_m," + h + "-1,0,1,2,3\n"), "r.csv: line 2: max_distance_m: expected metres at least 0, got '-1'");
 }
-
-struct Ran {
-  int exit;
-  std::string out, err;
-};
-Ran run(std::vector<const char*> arguments) {
-  arguments.insert(arguments.begin(), "welkin");
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = runProgram(int(arguments.size()), arguments.data());
-  std::fflush(stdout);
-  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
+using test::Ran, test::run;
 
 TEST(ProbeCommand, RunsAndFailsInOneLine) {
   const fs::path folder = fs::temp_directory_path() / ("welkin-probe-" + std::to_string(::getpid()));

@@ -6,6 +6,12 @@
 
 namespace welkin {
 
+// Whether the layer's phase function is too sharp for directions spread over the sphere: Henyey-Greenstein or Cornette-Shanks, |g| > 0.3.
+bool isPeaked(const shared::AirLayer& layer);
+
+// The Earth's clear air as published comparisons of skies use it: Rayleigh, Mie and ozone (Hillaire 2020, table 1), shell of 100 km.
+Atmosphere earthAir();
+
 // Scale height, half width of a tent, or height of a uniform layer.
 double layerThickness_m(const AirLayer& layer);
 

@@ -1,7 +1,7 @@
 #pragma once
 // The field of diffuse light (lib/air_field.glsl): what every point sees (gather) and its moments (project), which are the source of light
 // scattered once more. Each turn adds an order; the limit is extrapolated.
-#include <functional>
+#include <string>
 #include <vector>
 
 #include "welkin/gpu/memory.h"

@@ -21,12 +21,10 @@ struct SkyModel {
 
   int moments() const { return (degree + 1) * (degree + 2) / 2 + zonal - degree; }
   bool diffuse() const { return maxOrders > 1; }
-  // Whether a phase function (phase.glsl.h) is too sharp for directions spread over the sphere.
-  static bool peaked(std::uint32_t phase, float g);
 };
 
 // The model that the scene's `atmosphere.model` names. `auto`: tables-4d, or march where the air is too thin for more. Fails in one line
-// without an atmosphere and on a name that is none.
+// on air that is none (airBlock) and on a name that is none.
 Result<SkyModel> skyModel(const Scene& scene);
 
 }  // namespace welkin

@@ -55,6 +55,7 @@ class SkyTables {
 
  private:
   SkyTables();
+  static Result<SkyTables> empty(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders);  // all but the field
   Result<void> allocate(gpu::MemoryAccount& account);
   Result<void> compute();  // the sun's light, and the program of the view tables
   const gpu::Texture& sunDepth() const { return discDepth_.id() != 0 ? discDepth_ : pointDepth_; }
