@@ -79,7 +79,8 @@ def probe(welkin, scene, rays, method, out, orders=None, options=()):
     command = [welkin, "probe", scene_file(scene) if not scene.endswith(".json") else scene, "--rays", source, "-o", result,
                "--method", method, "--quiet", *(["--orders", str(orders)] if orders else []), *map(str, options)]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, cwd=REPOSITORY, check=False)
+        done = subprocess.run(command, capture_output=True, text=True, cwd=REPOSITORY, check=False,
+                              env={**os.environ, "WELKIN_CACHE": ""})  # light kept on disk by an older program would be measured
     except OSError as e:
         return f"{welkin}: {e.strerror}"
     if done.returncode:
