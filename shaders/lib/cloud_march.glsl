@@ -2,6 +2,7 @@
 // fills are integrated, in segments that are analytic for linear density.
 #include "welkin/shared/camera.glsl.h"
 #include "welkin/shared/cloud_light.glsl.h"
+#include "welkin/shared/cloud_weights.glsl.h"
 #include "lib/walk.glsl"
 
 struct CloudRay {
@@ -16,7 +17,6 @@ struct CloudRay {
 
 const float kOpaqueTransmittance = 1.0 / 512.0;
 const int kMaxCells = 4096;         // an opaque or left ray ends long before; software GL stops at 65535 turns in all
-const float kSkyDistance_m = 1e12;  // what is not there moves with the camera: only rotation reprojects it
 // Optical depth of a segment at the node's greatest density, in steps. Density varies along thin segments as along thick ones, and thin ones
 // do not saturate: they take finer steps. Behind cloud that hides most, errors hide too: steps grow to five times there (docs/decisions/0010).
 const float kDepthShare = 0.75;

@@ -58,11 +58,11 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
   auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width) * std::size_t(height) * 4, GL_DYNAMIC_STORAGE_BIT, true);
   if (!pixels) return pixels.error();
   passes.pixels_ = std::move(*pixels);
-  gpu::Defines defines = tree.defines();
-  defines.emplace_back("OPT_AIR", air ? "1" : "0");
+  passes.defines_ = tree.defines();
+  passes.defines_.emplace_back("OPT_AIR", air ? "1" : "0");
   gpu::Program* programs[] = {&passes.marchAll_, &passes.marchSixteenth_, &passes.marchList_};
   for (int i = 0; i < 3; ++i) {
-    gpu::Defines variant = defines;
+    gpu::Defines variant = passes.defines_;
     variant.emplace_back("PIXELS", std::to_string(i));
     auto program = gpu::Program::compute("pass/march/march.comp", variant);
     if (!program) return program.error();
@@ -82,13 +82,11 @@ void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int targ
   age_[target].bindImage(3, GL_WRITE_ONLY);
 }
 
-void CloudPasses::setLight(const Scene& scene) const {
+void CloudPasses::setLight(const gpu::Program& program, const Scene& scene) const {
   const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
   const float albedo = float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3;
-  for (const gpu::Program* p : {&marchAll_, &marchSixteenth_, &marchList_}) {
-    p->set("u_sunIrradiance", irradiance);
-    p->set("u_groundAlbedo", albedo);
-  }
+  program.set("u_sunIrradiance", irradiance);
+  program.set("u_groundAlbedo", albedo);
 }
 
 void CloudPasses::setMotion(const gpu::Program& program, const ViewFrame& view) const {
@@ -98,18 +96,36 @@ void CloudPasses::setMotion(const gpu::Program& program, const ViewFrame& view) 
   program.set("u_oldUp", glm::vec3(last_.up / last_.tanY));
 }
 
-void CloudPasses::preview(const Scene& scene) {
-  setLight(scene);
+void CloudPasses::preview(const Scene& scene) { marchSpare(marchAll_, scene); }
+
+Result<void> CloudPasses::show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds) {
+  if (!given_.valid()) {
+    gpu::Defines variant = defines_;
+    variant.emplace_back("PIXELS", "3");
+    auto program = gpu::Program::compute("pass/march/march.comp", variant);
+    if (!program) return program.error();
+    given_ = std::move(*program);
+  }
+  auto buffer = gpu::Buffer::create(account, "given clouds", clouds.size_bytes(), GL_DYNAMIC_STORAGE_BIT, true);
+  if (!buffer) return buffer.error();
+  buffer->upload(0, std::as_bytes(clouds));
+  buffer->bind(GL_SHADER_STORAGE_BUFFER, WK_PIXELS_BINDING);
+  marchSpare(given_, scene);
+  return {};
+}
+
+void CloudPasses::marchSpare(const gpu::Program& program, const Scene& scene) const {
+  setLight(program, scene);
   const int spare = 1 - current_;  // the next run() writes every pixel of it
-  march(marchAll_, {0, 0}, spare);
-  marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
+  march(program, {0, 0}, spare);
+  program.dispatch(groups(width_, 8), groups(height_, 8));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   light_[spare].bind(WK_CLOUD_LIGHT_UNIT);
   aux_[spare].bind(WK_CLOUD_AUX_UNIT);
 }
 
 void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
-  setLight(scene);
+  for (const gpu::Program* p : {&marchAll_, &marchSixteenth_, &marchList_}) setLight(*p, scene);
   const int old = current_;
   current_ = 1 - current_;
   if (mode == FrameMode::Full || !haveHistory_) {

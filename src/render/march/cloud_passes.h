@@ -4,6 +4,7 @@
 #include "welkin/gpu/timer.h"
 #include "welkin/render/renderer.h"
 #include "welkin/shared/camera.glsl.h"
+#include "welkin/shared/cloud_weights.glsl.h"
 
 namespace welkin {
 
@@ -22,11 +23,14 @@ class CloudPasses {
   void run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer);
   // Marches every pixel into the spare target, which is bound as the new clouds; history stays as it is.
   void preview(const Scene& scene);
+  // The same with what each pixel's ray brings given, rows from the top, instead of marched.
+  Result<void> show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds);
   void forget() { haveHistory_ = false; }  // the next frame marches every pixel
 
  private:
   void march(const gpu::Program& program, glm::ivec2 offset, int target) const;
-  void setLight(const Scene& scene) const;
+  void marchSpare(const gpu::Program& program, const Scene& scene) const;
+  void setLight(const gpu::Program& program, const Scene& scene) const;
   void setMotion(const gpu::Program& program, const ViewFrame& view) const;
   int width_ = 0, height_ = 0, current_ = 0;
   bool haveHistory_ = false;
@@ -34,7 +38,8 @@ class CloudPasses {
   ViewFrame last_{};
   gpu::Texture light_[2], aux_[2], age_[2], change_;
   gpu::Buffer pixels_;
-  gpu::Program marchAll_, marchSixteenth_, marchList_, reproject_;
+  gpu::Defines defines_;
+  gpu::Program marchAll_, marchSixteenth_, marchList_, reproject_, given_;  // given: made when it is first asked for
 };
 
 }  // namespace welkin

@@ -40,7 +40,7 @@ inline std::vector<ShaderVariant> shaderTable() {
     for (const char* source : {"lib/clouds/layers.glsl", "lib/clouds/sphere.glsl"})
       table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}}});
     table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
-    for (const char* pixels : {"0", "1", "2"})
+    for (const char* pixels : {"0", "1", "2", "3"})
       for (const char* air : {"0", "1"})
         table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"PIXELS", pixels}}});
   }
