@@ -3,6 +3,8 @@
 #include "welkin/shared/camera.glsl.h"
 #include "welkin/shared/cloud_light.glsl.h"
 #include "welkin/shared/cloud_weights.glsl.h"
+#include "welkin/shared/integrators.glsl.h"
+#include "welkin/shared/step_rules.glsl.h"
 #include "lib/walk.glsl"
 
 struct CloudRay {
@@ -17,10 +19,6 @@ struct CloudRay {
 
 const float kOpaqueTransmittance = 1.0 / 512.0;
 const int kMaxCells = 4096;         // an opaque or left ray ends long before; software GL stops at 65535 turns in all
-// Optical depth of a segment at the node's greatest density, in steps. Density varies along thin segments as along thick ones, and thin ones
-// do not saturate: they take finer steps. Behind cloud that hides most, errors hide too: steps grow to five times there (docs/decisions/0010).
-const float kDepthShare = 0.75;
-const float kLeastCount = 0.2;
 
 // Seen from outside, at the limb, a voxel's height is seen, not its width: cloud that coarse voxels carry above the source's top would
 // stand out from the disc, and is left out. 1 past the limb, 0 away from it and inside the air, where voxels are small.

@@ -58,6 +58,10 @@ void addQualityOptions(CLI::App& command, CommonOptions& o) {
   addParsed<double>(
       command, "--step", "length of a march step; smaller is finer and slower",
       [](const std::string& t) { return parseNumber(t, 1e-6, 1000); }, [&o](double v) { o.step = v; });
+  addParsed<Integrator>(command, "--integrator", "how a march segment adds up: " + namesText(kIntegratorNames), parseName<Integrator>(kIntegratorNames),
+                        [&o](Integrator v) { o.integrator = v; });
+  addParsed<StepRule>(command, "--step-rule", "what a march step is measured in: " + namesText(kStepRuleNames), parseName<StepRule>(kStepRuleNames),
+                      [&o](StepRule v) { o.stepRule = v; });
   addParsed<double>(
       command, "--detail", "nodes a radian wanted; 0: as fine as the budget allows",
       [](const std::string& t) { return parseNumber(t, 0, 1e6); }, [&o](double v) { o.detail = v; });
@@ -66,7 +70,7 @@ void addQualityOptions(CLI::App& command, CommonOptions& o) {
       [&o](std::int64_t v) { o.seed = std::uint32_t(v); });
   addParsed<Exposure>(command, "--exposure", "stops over the base exposure, or auto: metered", parseExposure,
                       [&o](Exposure v) { o.exposure = v; });
-  addParsed<ToneCurve>(command, "--tone-curve", "aces, reinhard, lottes or uchimura", parseToneCurve,
+  addParsed<ToneCurve>(command, "--tone-curve", namesText(kToneCurveNames), parseName<ToneCurve>(kToneCurveNames),
                        [&o](ToneCurve v) { o.toneCurve = v; });
   addGpuOption(command, o);
 }

@@ -41,10 +41,12 @@ Result<Exposure> parseExposure(const std::string& text) {
   return Error{fmt::format("expected auto or stops from -40 to 40, got {}", oneLine(text, 60))};
 }
 
-Result<ToneCurve> parseToneCurve(const std::string& text) {
-  const auto found = std::find(kToneCurveNames.begin(), kToneCurveNames.end(), text);
-  if (found != kToneCurveNames.end()) return ToneCurve(found - kToneCurveNames.begin());
-  return Error{fmt::format("expected one of: {}, got {}", fmt::join(kToneCurveNames, ", "), oneLine(text, 60))};
+std::string namesText(std::span<const char* const> names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+Result<std::size_t> findName(std::span<const char* const> names, const std::string& text) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) return std::size_t(found - names.begin());
+  return Error{fmt::format("expected one of: {}, got {}", namesText(names), oneLine(text, 60))};
 }
 
 Result<FrameRange> parseRange(const std::string& text) {
@@ -83,6 +85,8 @@ void apply(const CommonOptions& options, Scene& scene) {
   q.budget_bytes = options.budget_bytes.value_or(q.budget_bytes);
   q.depth = options.depth.value_or(q.depth);
   q.step = options.step.value_or(q.step);
+  q.integrator = options.integrator.value_or(q.integrator);
+  q.stepRule = options.stepRule.value_or(q.stepRule);
   q.detail = options.detail.value_or(q.detail);
   q.seed = options.seed.value_or(q.seed);
   scene.output.toneCurve = options.toneCurve.value_or(scene.output.toneCurve);

@@ -177,7 +177,7 @@ struct Reader {
   }
 
   Quality quality(const JsonPlace& p) const {
-    p.object({"budget", "depth", "step", "detail", "seed"});
+    p.object({"budget", "depth", "integrator", "step_rule", "step", "skip_empty", "detail", "seed"});
     Quality out;
     if (p.has("budget")) {
       const auto budget = parseBytes(p.at("budget").text(1, 40));
@@ -186,6 +186,9 @@ struct Reader {
       out.budget_bytes = *budget;
     }
     if (p.has("depth")) out.depth = int(p.at("depth").integer(1, 24));
+    if (p.has("integrator")) out.integrator = Integrator(p.at("integrator").choice(kIntegratorNames));
+    if (p.has("step_rule")) out.stepRule = StepRule(p.at("step_rule").choice(kStepRuleNames));
+    if (p.has("skip_empty")) out.skipEmpty = p.at("skip_empty").boolean();
     out.step = p.numberOr("step", out.step, above(0, 1000));
     out.detail = p.numberOr("detail", out.detail, {0, 1e6});
     if (p.has("seed")) out.seed = std::uint32_t(p.at("seed").integer(0, 4294967295));
@@ -218,8 +221,7 @@ struct Reader {
       }
     }
     if (p.has("tone_curve")) {
-      const auto name = p.at("tone_curve").choice({kToneCurveNames[0], kToneCurveNames[1], kToneCurveNames[2], kToneCurveNames[3]});
-      out.toneCurve = ToneCurve(std::find(kToneCurveNames.begin(), kToneCurveNames.end(), name) - kToneCurveNames.begin());
+      out.toneCurve = ToneCurve(p.at("tone_curve").choice(kToneCurveNames));
     }
     if (p.has("auto_exposure")) out.autoExposure = autoExposure(p.at("auto_exposure"));
     return out;

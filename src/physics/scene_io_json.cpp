@@ -190,6 +190,17 @@ std::string JsonPlace::choice(std::initializer_list<std::string_view> allowed) c
   return out;
 }
 
+std::size_t JsonPlace::choice(std::span<const char* const> names) const {
+  const auto found = value_->is_string() ? std::find(names.begin(), names.end(), value_->get<std::string>()) : names.end();
+  if (found == names.end()) fail(fmt::format("one of: {}", fmt::join(names, ", ")));
+  return std::size_t(found - names.begin());
+}
+
+bool JsonPlace::boolean() const {
+  if (!value_->is_boolean()) fail("true or false");
+  return value_->get<bool>();
+}
+
 glm::dvec3 JsonPlace::vec3(Range range) const {
   const auto v = numbers<3>(range);
   return {v[0], v[1], v[2]};

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -45,6 +46,8 @@ class JsonPlace {
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
   std::string text(std::size_t least = 1, std::size_t most = 4096) const;
   std::string choice(std::initializer_list<std::string_view> allowed) const;
+  std::size_t choice(std::span<const char* const> names) const;  // which of them
+  bool boolean() const;
   template <int N>
   std::array<double, N> numbers(Range range) const {
     array(N, N);

@@ -48,8 +48,9 @@ TEST(Options, exposureAndToneCurve) {
   EXPECT_TRUE(parseExposure("auto").ok());
   EXPECT_FALSE(parseExposure("auto")->ev);
   for (const char* wrong : {"", "bright", "1 2", "41", "-41", "nan", "inf", "1x"}) EXPECT_FALSE(parseExposure(wrong).ok()) << wrong;
-  EXPECT_EQ(*parseToneCurve("uchimura"), ToneCurve::Uchimura);
-  for (const char* wrong : {"", "filmic", "ACES"}) EXPECT_FALSE(parseToneCurve(wrong).ok()) << wrong;
+  EXPECT_EQ(*parseName<ToneCurve>(kToneCurveNames)("uchimura"), ToneCurve::Uchimura);
+  EXPECT_EQ(*parseName<Integrator>(kIntegratorNames)("simpson-3/8"), Integrator::Simpson38);
+  for (const char* wrong : {"", "filmic", "ACES"}) EXPECT_FALSE(parseName<ToneCurve>(kToneCurveNames)(wrong).ok()) << wrong;
 
   // In place of the scene's and of every view's.
   Scene scene;

@@ -26,6 +26,7 @@ bool valid(const json& schema, const json& v) {
            : r == "array"   ? v.is_array()
            : r == "string"  ? v.is_string()
            : r == "integer" ? v.is_number_integer()
+           : r == "boolean" ? v.is_boolean()
                             : number;
     } else if (k == "const") {
       ok = v == r;

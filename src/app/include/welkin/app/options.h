@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,17 @@ struct Exposure {
   std::optional<double> ev;  // none: metered
 };
 Result<Exposure> parseExposure(const std::string& text);    // "auto", or stops from -40 to 40
-Result<ToneCurve> parseToneCurve(const std::string& text);  // one of kToneCurveNames
+std::string namesText(std::span<const char* const> names);  // "aces, reinhard, ..."
+Result<std::size_t> findName(std::span<const char* const> names, const std::string& text);
+// Reads one of the names of an enumeration that counts from 0.
+template <class E>
+auto parseName(std::span<const char* const> names) {
+  return [names](const std::string& text) -> Result<E> {
+    const auto found = findName(names, text);
+    if (!found) return found.error();
+    return E(*found);
+  };
+}
 
 struct FrameRange {  // first, and one past the last; the end may be open
   int first = 0;
@@ -37,6 +48,8 @@ struct CommonOptions {
   std::optional<Size> size;
   std::optional<std::uint64_t> budget_bytes;
   std::optional<int> depth;
+  std::optional<Integrator> integrator;
+  std::optional<StepRule> stepRule;
   std::optional<double> step, detail;
   std::optional<std::uint32_t> seed;
   std::optional<Exposure> exposure;  // in place of the scene's and of every view's

@@ -83,10 +83,20 @@ struct View {
   std::optional<double> exposure_ev;             // overrides the scene's, metered or not
 };
 
+// How the march adds up a segment (shared/integrators.glsl.h) and how long its segments are (shared/step_rules.glsl.h).
+enum class Integrator { Rectangle, Trapezoid, Simpson, Simpson38, ExponentialConstant, ExponentialLinear, Adaptive };
+inline constexpr std::array<const char*, 7> kIntegratorNames{"rectangle",           "trapezoid",          "simpson", "simpson-3/8",
+                                                             "exponential-constant", "exponential-linear", "adaptive"};
+enum class StepRule { Uniform, Geometric, Optical, Pixel, Node };
+inline constexpr std::array<const char*, 5> kStepRuleNames{"uniform", "geometric", "optical", "pixel", "node"};
+
 struct Quality {
   std::uint64_t budget_bytes = 512ull << 20;
   int depth = 16;
-  double step = 0.32;       // length of a march segment in halves of the node's size (cloud_march.glsl)
+  Integrator integrator = Integrator::ExponentialLinear;
+  StepRule stepRule = StepRule::Optical;
+  double step = 0.32;       // length of a march segment, in units of its rule
+  bool skipEmpty = true;    // false: empty nodes are marched like others; for comparisons
   double detail = 0;        // node size over distance wanted (nodes a radian); 0: as fine as the budget allows
   std::uint32_t seed = 1;
 };

@@ -39,12 +39,6 @@ WK_FN float sunSource(CloudPhases phases, float encoded) {
   return phases.single * half_ * half_ + phases.second * half_ + phases.third * quarter + diffuse;
 }
 
-// Where in a segment of even density, 0 front to 1 back, the light that it sends towards the camera comes from on average:
-// 1/tau - 1/(e^tau - 1), 1/2 when thin and 1/tau when thick; this quotient is within 0.011 of it everywhere.
-WK_FN float emissionDepth(float tau) {
-  return (F(0.5) + tau * F(0.0833333333)) / (F(1.0) + tau * (F(0.3333333333) + tau * F(0.0833333333)));
-}
-
 // Light of the sky arrives as diffuse light does. Light from the ground reaches what the sky does not: from a quarter at the top to all of
 // it far down. A ray sums opacity, and opacity times share; both sources follow.
 WK_FN float skySource(float openOpacity) { return openOpacity * (F(0.5) / kPi); }
