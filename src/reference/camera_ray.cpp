@@ -1,5 +1,6 @@
 #include "welkin/reference/camera_ray.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace welkin::reference {
@@ -20,7 +21,33 @@ CameraRay finished(CameraRay ray) {
   return ray;
 }
 
+double smoothstep(double from, double to, double x) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
 }  // namespace
+
+Stretch shellStretch(const CameraRay& ray, double base_m, double top_m) {
+  const double b = glm::dot(ray.position_planet, ray.direction), h = ray.altitude_m, r = ray.centre_m, R = ray.radius_m;
+  Stretch s = sphereStretch(b, (h - top_m) * (r + R + top_m));
+  if (s.empty()) return s;
+  if (ray.ground_m >= 0) s.far = std::min(s.far, ray.ground_m);
+  if (!(base_m > -R)) return s;
+  const Stretch inner = sphereStretch(b, (h - base_m) * (r + R + base_m));
+  if (inner.empty()) return s;
+  if (h < base_m) {
+    s.near = std::max(s.near, inner.far);
+  } else if (ray.ground_m >= 0) {
+    s.far = std::min(s.far, inner.near);
+  }
+  return s;
+}
+
+double limbShare(const CameraRay& ray) {
+  const double cosine = ray.ground_m >= 0 ? -glm::dot(ray.position_planet + ray.direction * ray.ground_m, ray.direction) / ray.radius_m : 0;
+  return (1 - smoothstep(0, 0.12, cosine)) * smoothstep(50e3, 250e3, ray.altitude_m);
+}
 
 CameraRay pixelRay(const shared::CameraBlock& camera, int width, int height, int x, int y) {
   const double across = 2 * (x + 0.5) / width - 1, up = 1 - 2 * (y + 0.5) / height;

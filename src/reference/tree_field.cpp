@@ -117,11 +117,6 @@ class TreeAlong final : public CloudAlong {
   Cell own_, parent_;
 };
 
-double smoothstep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
 }  // namespace
 
 TreeField::TreeField(const TreeData& data, Fade fade)
@@ -150,27 +145,10 @@ glm::dvec2 TreeField::texel(std::uint32_t brick, glm::uvec3 i) const {
   return {texel[0] / 65535.0, texel[1] / 65535.0};
 }
 
-// The limb's rule is the march's (cloud_march.glsl, limbShare): it says which cloud is shown.
 Stretch TreeField::stretchOf(const CameraRay& ray) const {
   const shared::TreeBlock& block = data_.block;
-  const double b = glm::dot(ray.position_planet, ray.direction), h = ray.altitude_m, r = ray.centre_m, R = ray.radius_m;
-  const double cosine = ray.ground_m >= 0 ? -glm::dot(ray.position_planet + ray.direction * ray.ground_m, ray.direction) / R : 0;
-  const double limb = (1 - smoothstep(0, 0.12, cosine)) * smoothstep(50e3, 250e3, h);
-  const double bandTop = double(block.bandTop_m), base = double(block.bandBase_m);
-  const double top = bandTop + limb * (std::min(bandTop, double(block.cloudTop_m)) - bandTop);
-  Stretch s = sphereStretch(b, (h - top) * (r + R + top));
-  if (s.empty()) return s;
-  if (ray.ground_m >= 0) s.far = std::min(s.far, ray.ground_m);
-  if (base > -R) {
-    const Stretch inner = sphereStretch(b, (h - base) * (r + R + base));
-    if (!inner.empty()) {
-      if (h < base)
-        s.near = std::max(s.near, inner.far);
-      else if (ray.ground_m >= 0)
-        s.far = std::min(s.far, inner.near);
-    }
-  }
-  return s;
+  const double top = std::min(double(block.bandTop_m), block.half_m - ray.radius_m), limb = limbShare(ray);  // within the root cube
+  return shellStretch(ray, double(block.bandBase_m), top + limb * (std::min(top, double(block.cloudTop_m)) - top));
 }
 
 std::uint64_t contentHash(const TreeData& data) {

@@ -25,4 +25,12 @@ CameraRay pixelRay(const shared::CameraBlock& camera, int width, int height, int
 // From anywhere along any unit direction.
 CameraRay rayFrom(glm::dvec3 position_planet, glm::dvec3 direction, double radius_m);
 
+// Where a ray is between two altitudes, and not behind the ground: from below the base it begins there, from above onto the ground it
+// ends there.
+Stretch shellStretch(const CameraRay& ray, double base_m, double top_m);
+
+// How much a ray is one past the limb, seen from outside (cloud_march.glsl): there cloud that coarse voxels carry above the source's top is
+// left out. Part of what is shown, so the reference has it too.
+double limbShare(const CameraRay& ray);
+
 }  // namespace welkin::reference
