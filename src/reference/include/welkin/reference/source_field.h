@@ -16,18 +16,23 @@ struct SourceSettings {
   double shadowVoxels = 1;  // length of a piece of a ray to the sun: two Gauss points each
 };
 
-// Walks straight through the source, over nodes that its bounds show to be empty.
+// Walks straight through the source, over nodes that its bounds show to be empty. Distances from the start.
 class SourceWalk {
  public:
   SourceWalk(const DensitySource& source, const RootFrame& root, const SourceSettings& settings, glm::dvec3 start_planet,
              glm::dvec3 direction);
 
   struct Piece {
-    double to;  // where it ends: at the end of an empty node, of the level, or `voxels` voxels on
+    double to;  // where it ends, after t and at most at the end
     bool empty;
-    double greatest_per_m;  // bound of the density in the node
+    double greatest_per_m;  // no density of the piece is above it
   };
+  // On to the end of an empty node, or of the level of detail, or a number of voxels on.
   Piece enter(double t, double end, double voxels);
+  // The same by nodes alone, as large as their bounds are tight enough to draw collisions from.
+  Piece enterNode(double t, double end);
+  // Another ray through the same source: what is known of nodes stays.
+  void restart(glm::dvec3 start_planet, glm::dvec3 direction) { start_ = start_planet, direction_ = direction; }
   double density(double t) const;  // 1/m
 
  private:
@@ -36,6 +41,7 @@ class SourceWalk {
     Bounds bounds;
   };
   Bounds boundsAt(glm::uvec3 p, std::uint32_t level);
+  Piece piece(double t, double end, double voxels, double thin);
 
   const DensitySource& source_;
   const RootFrame& root_;
