@@ -1,6 +1,8 @@
 #include "welkin/reference/cloud_picture.h"
 
+#include <algorithm>
 #include <atomic>
+#include <numeric>
 
 #include "welkin/reference/parallel.h"
 
@@ -19,34 +21,44 @@ std::vector<std::uint32_t> somePixels(int width, int height, int n) {
   return pixels;
 }
 
-CloudPicture marchPicture(const CloudField& field, const shared::CameraBlock& camera, const PictureSettings& settings,
-                          const std::function<bool(double)>& progress) {
-  CloudPicture picture;
-  picture.pixels = settings.pixels;
-  if (picture.pixels.empty()) {
-    picture.pixels.resize(std::size_t(settings.width) * std::size_t(settings.height));
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] = std::uint32_t(i);
-  }
-  picture.clouds.resize(picture.pixels.size());
-  std::atomic<bool> stopped{false};
-  const std::size_t works = (picture.pixels.size() + kTogether - 1) / kTogether;
-  forEach(
-      works, settings.threads,
-      [&](std::size_t work) {
-        for (std::size_t i = work * kTogether; i < std::min((work + 1) * kTogether, picture.pixels.size()) && !stopped; ++i) {
-          const int x = int(picture.pixels[i] % std::uint32_t(settings.width)), y = int(picture.pixels[i] / std::uint32_t(settings.width));
-          picture.clouds[i] = marchClouds(field, pixelRay(camera, settings.width, settings.height, x, y), settings.tolerance);
-        }
-      },
-      [&](std::size_t done) {
-        if (progress && !progress(double(done) / double(works))) stopped = true;
-      });
-  if (stopped) return {};
+namespace {
+
+std::vector<std::uint32_t> pixelsOf(const PictureSettings& settings) {
+  if (!settings.pixels.empty()) return settings.pixels;
+  std::vector<std::uint32_t> all(std::size_t(settings.width) * std::size_t(settings.height));
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
+
+}  // namespace
+
+CloudPicture pictureOf(const PictureSettings& settings, std::vector<CloudTruth> clouds) {
+  CloudPicture picture{pixelsOf(settings), std::move(clouds)};
   for (const CloudTruth& cloud : picture.clouds) {
     picture.worstError = std::max(picture.worstError, cloud.error);
     picture.converged = picture.converged && cloud.converged;
   }
   return picture;
+}
+
+CloudPicture marchPicture(const CloudField& field, const shared::CameraBlock& camera, const PictureSettings& settings,
+                          const std::function<bool(double)>& progress) {
+  const std::vector<std::uint32_t> pixels = pixelsOf(settings);
+  std::vector<CloudTruth> clouds(pixels.size());
+  std::atomic<bool> stopped{false};
+  const std::size_t works = (pixels.size() + kTogether - 1) / kTogether;
+  forEach(
+      works, settings.threads,
+      [&](std::size_t work) {
+        for (std::size_t i = work * kTogether; i < std::min((work + 1) * kTogether, pixels.size()) && !stopped; ++i) {
+          const int x = int(pixels[i] % std::uint32_t(settings.width)), y = int(pixels[i] / std::uint32_t(settings.width));
+          clouds[i] = marchClouds(field, pixelRay(camera, settings.width, settings.height, x, y), settings.tolerance);
+        }
+      },
+      [&](std::size_t done) {
+        if (progress && !progress(double(done) / double(works))) stopped = true;
+      });
+  return stopped ? CloudPicture{} : pictureOf(settings, std::move(clouds));
 }
 
 std::vector<shared::CloudWeights> weightsOf(const CloudPicture& picture, int width, int height) {

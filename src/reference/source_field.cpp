@@ -3,6 +3,8 @@
 #include <array>
 #include <optional>
 
+#include "welkin/reference/hash.h"
+
 namespace welkin::reference {
 namespace {
 
@@ -123,6 +125,20 @@ Stretch SourceField::stretchOf(const CameraRay& ray) const {
 std::unique_ptr<CloudAlong> SourceField::along(const CameraRay& ray, double from_m) const {
   const glm::dvec3 start = ray.position_planet + ray.direction * from_m;
   return std::make_unique<SourceAlong>(*this, SourceWalk(source_, root_, settings_, start, ray.direction), start, ray.direction);
+}
+
+// What the GPU is given of a source is all of it.
+std::uint64_t SourceField::contentHash() const {
+  Hash hash;
+  hash.add(source_.shader());
+  const auto words = source_.shaderParams();
+  hash.add(words.data(), words.size() * sizeof(words[0]));
+  if (const CoverFaces* cover = source_.cover()) hash.add(cover->texels.data(), cover->texels.size() * sizeof(cover->texels[0]));
+  const SourceSettings& s = settings_;
+  for (const double v : {root_.planetRadius_m, root_.half_m, s.detail.reach_m, double(s.detail.depth), s.detail.near_m, s.eye_planet.x,
+                         s.eye_planet.y, s.eye_planet.z, s.towardsSun.x, s.towardsSun.y, s.towardsSun.z, s.shadowVoxels})
+    hash.add(v);
+  return hash.value();
 }
 
 double SourceField::sunDepth(glm::dvec3 position_planet) const {

@@ -151,6 +151,13 @@ Stretch TreeField::stretchOf(const CameraRay& ray) const {
   return shellStretch(ray, double(block.bandBase_m), top + limb * (std::min(top, double(block.cloudTop_m)) - top));
 }
 
+std::uint64_t TreeField::contentHash() const {
+  Hash hash;
+  hash.add(reference::contentHash(data_));
+  hash.add(std::uint64_t(fade_));
+  return hash.value();
+}
+
 std::uint64_t contentHash(const TreeData& data) {
   Hash hash;
   const shared::TreeBlock& b = data.block;

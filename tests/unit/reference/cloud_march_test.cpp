@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <limits>
 
@@ -38,6 +40,7 @@ struct Told final : CloudField {
     return out;
   }
   glm::dvec3 towardsSun() const override { return {0, 0, 1}; }
+  std::uint64_t contentHash() const override { return 1; }
 };
 
 CameraRay anyRay() { return rayFrom({0, 0, kRadius_m + 10}, {1, 0, 0}, kRadius_m); }
@@ -201,6 +204,35 @@ TEST(CloudMarch, PixelsAreAllOrSome) {
   for (const std::uint32_t p : some) ++rows[p / 64], ++columns[p % 64];
   for (const int n : rows) EXPECT_GT(n, 0);
   for (const int n : columns) EXPECT_GT(n, 0);
+}
+
+// A picture is kept under everything that it depends on; a file that is cut short is made again.
+TEST(CloudPicture, IsNotDoneAgain) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "welkin-truth-cache";
+  std::filesystem::remove_all(folder);
+  ::setenv("WELKIN_CACHE", folder.c_str(), 1);
+  Told cloud;
+  cloud.length_m = 500;
+  cloud.sample = [](double t) { return CloudSample{1e-3 + 1e-6 * t, 0.3}; };
+  const shared::CameraBlock camera{{0, 0, kRadius_m + 10, 10}, {1, 0, 0, kRadius_m}, {0, 0.5, 0, 100}, {0, 0, 0.5, kRadius_m + 10}};
+  PictureSettings settings{4, 3, {}, 1e-6, 1};
+  const CloudPicture made = keptPicture(cloud, camera, settings), again = keptPicture(cloud, camera, settings);
+  EXPECT_FALSE(made.kept);
+  ASSERT_TRUE(again.kept);
+  ASSERT_EQ(again.clouds.size(), 12u);
+  EXPECT_EQ(again.pixels, made.pixels);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(again.clouds[i].sun, made.clouds[i].sun);
+  settings.tolerance = 1e-7;
+  EXPECT_FALSE(keptPicture(cloud, camera, settings).kept);
+  settings.pixels = {3, 5};
+  EXPECT_FALSE(keptPicture(cloud, camera, settings).kept);
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) std::filesystem::resize_file(entry.path(), 200);
+  EXPECT_FALSE(keptPicture(cloud, camera, settings).kept);
+  EXPECT_TRUE(keptPicture(cloud, camera, settings).kept);
+  EXPECT_TRUE(keptPicture(cloud, camera, {4, 3, {}, 1e-8, 1}, [](double) { return false; }).clouds.empty()) << "stopped";
+  ::setenv("WELKIN_CACHE", "", 1);
+  EXPECT_FALSE(keptPicture(cloud, camera, settings).kept) << "no cache";
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

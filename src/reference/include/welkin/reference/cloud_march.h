@@ -32,6 +32,8 @@ class CloudField {
   // The field along the ray from a distance on; t = 0 is there.
   virtual std::unique_ptr<CloudAlong> along(const CameraRay& ray, double from_m) const = 0;
   virtual glm::dvec3 towardsSun() const = 0;  // unit, planet frame
+  // A name for all that rays can see of the field: equal names, equal pictures.
+  virtual std::uint64_t contentHash() const = 0;
 };
 
 struct CloudTruth {

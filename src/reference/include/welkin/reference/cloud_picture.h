@@ -22,11 +22,19 @@ struct CloudPicture {
   std::vector<CloudTruth> clouds;     // of each
   double worstError = 0;              // of all pixels
   bool converged = true;
+  bool kept = false;  // it was on disk
 };
+
+// Which pixels are computed, with what their rays bring.
+CloudPicture pictureOf(const PictureSettings& settings, std::vector<CloudTruth> clouds);
 
 // `progress` gets 0..1 and may return false to stop: then the picture is empty.
 CloudPicture marchPicture(const CloudField& field, const shared::CameraBlock& camera, const PictureSettings& settings,
                           const std::function<bool(double)>& progress = {});
+
+// The same, but not done again: kept on disk (core/cache.h) under a hash of field, camera, pixels and tolerance.
+CloudPicture keptPicture(const CloudField& field, const shared::CameraBlock& camera, const PictureSettings& settings,
+                         const std::function<bool(double)>& progress = {});
 
 // For Renderer::drawWith: all pixels, rows from the top; those that were not computed show no cloud.
 std::vector<shared::CloudWeights> weightsOf(const CloudPicture& picture, int width, int height);

@@ -56,6 +56,7 @@ class SourceField final : public CloudField {
   Stretch stretchOf(const CameraRay& ray) const override;
   std::unique_ptr<CloudAlong> along(const CameraRay& ray, double from_m) const override;
   glm::dvec3 towardsSun() const override { return settings_.towardsSun; }
+  std::uint64_t contentHash() const override;
   // Optical depth from a point towards the sun, at most kOpaqueDepth, which it is behind the planet too.
   double sunDepth(glm::dvec3 position_planet) const;
 

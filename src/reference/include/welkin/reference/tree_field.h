@@ -17,6 +17,8 @@ class TreeField final : public CloudField {
   std::unique_ptr<CloudAlong> along(const CameraRay& ray, double from_m) const override;
   glm::dvec3 towardsSun() const override { return glm::normalize(glm::dvec3(data_.block.sunDir)); }
 
+  std::uint64_t contentHash() const override;
+
   // The node that holds a fixed-point position at a level, or the deepest one above it; brick, greatest value and its own level.
   struct Node {
     std::uint32_t brick, level;
