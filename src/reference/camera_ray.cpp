@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace welkin::reference {
 
@@ -27,6 +28,20 @@ double smoothstep(double from, double to, double x) {
 }
 
 }  // namespace
+
+Stretch cubeStretch(glm::dvec3 start, glm::dvec3 slope, glm::dvec3 corner, double size) {
+  Stretch s{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (int a = 0; a < 3; ++a) {
+    const double low = corner[a] - start[a], high = low + size;
+    if (slope[a] == 0) {
+      if (low > 0 || high < 0) s.near = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    s.near = std::max(s.near, (slope[a] > 0 ? low : high) / slope[a]);
+    s.far = std::min(s.far, (slope[a] > 0 ? high : low) / slope[a]);
+  }
+  return s;
+}
 
 Stretch shellStretch(const CameraRay& ray, double base_m, double top_m) {
   const double b = glm::dot(ray.position_planet, ray.direction), h = ray.altitude_m, r = ray.centre_m, R = ray.radius_m;

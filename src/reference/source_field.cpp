@@ -12,14 +12,6 @@ constexpr double kPastFace_steps = 1e-3;
 constexpr double kThinNode = 4;      // measured: halving on costs more bounds than it saves collisions with nothing
 constexpr double kLeakVoxels = 2.5;  // how far beyond its altitudes a source is seen: band limits, and as far as bricks carry it
 
-// Where a ray begins that lies in [lo, lo + size] an axis ends.
-double exitOf(glm::dvec3 start, glm::dvec3 direction, glm::dvec3 lo, double size) {
-  double t = std::numeric_limits<double>::infinity();
-  for (int a = 0; a < 3; ++a)
-    if (direction[a] != 0) t = std::min(t, (lo[a] + (direction[a] > 0 ? size : 0) - start[a]) / direction[a]);
-  return t;
-}
-
 // The light of a piece is the parabola through its ends and its middle: cloud is band-limited to the voxel, and a piece is one long.
 class SourceAlong final : public CloudAlong {
  public:
@@ -78,6 +70,9 @@ SourceWalk::Piece SourceWalk::enterNode(double t, double end) { return piece(t, 
 SourceWalk::Piece SourceWalk::piece(double t, double end, double voxels, double thin) {
   const double past_m = kPastFace_steps * root_.step_m(), inside = t + past_m;
   const glm::dvec3 at = start_ + direction_ * inside;
+  const Stretch cube = cubeStretch(start_, direction_, glm::dvec3(-root_.half_m), 2 * root_.half_m);
+  if (inside < cube.near || inside >= cube.far)  // beyond the root there is nothing
+    return {std::min(end, !cube.empty() && inside < cube.near ? cube.near : end), true, 0};
   const glm::uvec3 p = root_.toFixed(at);
   const double away = glm::length(at - settings_.eye_planet);
   const std::uint32_t want = settings_.detail.level(away);
@@ -92,7 +87,7 @@ SourceWalk::Piece SourceWalk::piece(double t, double end, double voxels, double 
     ++level;
   }
   const double size_m = root_.nodeSize_m(level);
-  double to = exitOf(start_, direction_, root_.toPlanet(shared::nodeCorner(p, level)), size_m);
+  double to = cubeStretch(start_, direction_, root_.toPlanet(shared::nodeCorner(p, level)), size_m).far;
   if (!bounds.empty()) to = std::min(to, t + voxels * root_.nodeSize_m(want) / 7);
   // The distance from the eye at which the rule breaks, as a distance along the ray: exact for a ray from the eye, near for others.
   const double next = settings_.detail.nextBreak(want, away) - away;
@@ -119,7 +114,7 @@ Stretch SourceField::stretchOf(const CameraRay& ray) const {
   const Stretch bare = shellStretch(ray, base, top);
   if (bare.empty()) return bare;
   const double leak = kLeakVoxels / 7 * root_.nodeSize_m(settings_.detail.level(bare.far));
-  return shellStretch(ray, base - leak, std::min(top + leak * (1 - limbShare(ray)), highest_m()));
+  return shellStretch(ray, base - leak, top + leak * (1 - limbShare(ray)));
 }
 
 std::unique_ptr<CloudAlong> SourceField::along(const CameraRay& ray, double from_m) const {
@@ -145,7 +140,7 @@ double SourceField::sunDepth(glm::dvec3 position_planet) const {
   const CameraRay ray = reference::rayFrom(position_planet, settings_.towardsSun, root_.planetRadius_m);
   if (ray.ground_m > 0 || (ray.ground_m == 0 && glm::dot(position_planet, settings_.towardsSun) < 0)) return kOpaqueDepth;
   const double leak = kLeakVoxels / 7 * root_.nodeSize_m(settings_.detail.level(glm::length(position_planet - settings_.eye_planet)));
-  const Stretch s = shellStretch(ray, -2 * root_.planetRadius_m, std::min(source_.top_m() + leak, highest_m()));
+  const Stretch s = shellStretch(ray, -2 * root_.planetRadius_m, source_.top_m() + leak);
   if (s.empty()) return 0;
   SourceWalk walk(source_, root_, settings_, position_planet, settings_.towardsSun);
   double depth = 0;

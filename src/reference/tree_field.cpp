@@ -30,28 +30,35 @@ class TreeAlong final : public CloudAlong {
     const shared::TreeBlock& block = field.data().block;
     start_ = (ray.position_planet + ray.direction * from_m + block.half_m) * block.stepsPerMetre;
     slope_ = ray.direction * block.stepsPerMetre;
+    root_ = cubeStretch(start_, slope_, glm::dvec3(0), kStepsOfRoot);
     past_m_ = kPastFace_steps / block.stepsPerMetre;
     density_per_m_ = double(block.maxExtinction_per_m);
   }
 
   double enter(double t, double end) override {
     const double inside = t + past_m_, away = from_m_ + inside;
-    const glm::dvec3 s = glm::clamp(start_ + slope_ * inside, 0.0, kStepsOfRoot - 1);
+    const glm::dvec3 s = start_ + slope_ * inside;
+    // Beyond the root's faces there is nothing; coarse voxels make the band of cloud reach out there.
+    if (inside < root_.near || inside >= root_.far) {
+      empty_ = true;
+      return past(t, end, !root_.empty() && inside < root_.near ? root_.near : end);
+    }
     const DetailRule& detail = field_.detail();
     const bool smooth = field_.fade() == Fade::Smooth;
     // In the node that was visited last nothing needs to be looked up, unless its level ends or begins to fade.
     const std::uint32_t wanted = detail.level(away);
     const double weight = detail.parentWeight(wanted, away);
     const bool known = glm::all(glm::greaterThanEqual(s, corner_)) && glm::all(glm::lessThan(s, corner_ + size_));
-    if (!known || (smooth && (wanted != want_ || (weight > 0) != asked_))) visit(glm::uvec3(s), wanted, weight);
+    if (!known || (smooth && (wanted != want_ || (weight > 0) != asked_)))
+      visit(glm::uvec3(glm::clamp(s, 0.0, kStepsOfRoot - 1)), wanted, weight);
     const double limit = smooth ? std::min(end, detail.nextBreak(wanted, away) - from_m_) : end;
     empty_ = nodeEmpty_;
-    if (empty_) return past(t, limit, exit(start_, slope_, corner_, size_));
+    if (empty_) return past(t, limit, cubeStretch(start_, slope_, corner_, size_).far);
     const glm::dvec3 here = glm::clamp(glm::floor(cells_ + cellsPerMetre_ * inside), 0.0, 6.0);
     own_ = load(brick_, here);
     if (faded_) parent_ = load(parentBrick_, glm::clamp(glm::floor(0.5 * (here + 0.5) + half_), 0.0, 6.0));
     empty_ = own_.empty && (!faded_ || parent_.empty);
-    return past(t, limit, exit(cells_, cellsPerMetre_, here, 1));
+    return past(t, limit, cubeStretch(cells_, cellsPerMetre_, here, 1).far);
   }
 
   bool empty() const override { return empty_; }
@@ -70,13 +77,6 @@ class TreeAlong final : public CloudAlong {
   }
 
  private:
-  // Where a line leaves the cube at `corner` of edge `size`.
-  static double exit(glm::dvec3 start, glm::dvec3 slope, glm::dvec3 corner, double size) {
-    double t = std::numeric_limits<double>::infinity();
-    for (int a = 0; a < 3; ++a)
-      if (slope[a] != 0) t = std::min(t, (corner[a] + (slope[a] > 0 ? size : 0) - start[a]) / slope[a]);
-    return t;
-  }
   void visit(glm::uvec3 p, std::uint32_t want, double weight) {
     const TreeField::Node node = field_.lookUp(p, want);
     want_ = want, weight_ = weight, asked_ = weight > 0;
@@ -108,6 +108,7 @@ class TreeAlong final : public CloudAlong {
 
   const TreeField& field_;
   double from_m_, past_m_, density_per_m_;
+  Stretch root_;              // the ray within the root cube
   glm::dvec3 start_, slope_;  // of the ray, in fixed-point steps
   // the node that is visited: which level was wanted, its cube in steps, the ray in cells of its brick, the parent's part
   std::uint32_t want_ = 0, brick_ = 0, parentBrick_ = 0;
@@ -147,7 +148,7 @@ glm::dvec2 TreeField::texel(std::uint32_t brick, glm::uvec3 i) const {
 
 Stretch TreeField::stretchOf(const CameraRay& ray) const {
   const shared::TreeBlock& block = data_.block;
-  const double top = std::min(double(block.bandTop_m), block.half_m - ray.radius_m), limb = limbShare(ray);  // within the root cube
+  const double top = double(block.bandTop_m), limb = limbShare(ray);
   return shellStretch(ray, double(block.bandBase_m), top + limb * (std::min(top, double(block.cloudTop_m)) - top));
 }
 

@@ -16,6 +16,13 @@ unsigned groups(int pixels, int size) { return static_cast<unsigned>((pixels + s
 
 constexpr double kLeastEye_m = 0.001;
 
+// What a quality defines for the march.
+gpu::Defines rulesOf(const Quality& quality) {
+  return {{"INTEGRATOR", std::to_string(int(quality.integrator))},
+          {"STEP_RULE", std::to_string(int(quality.stepRule)) + "u"},
+          {"SKIP_EMPTY", quality.skipEmpty ? "1" : "0"}};
+}
+
 }  // namespace
 
 ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, int width, int height) {
@@ -37,7 +44,8 @@ ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, 
   return f;
 }
 
-Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, bool air) {
+Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, bool air,
+                                        const Quality& quality) {
   CloudPasses passes;
   passes.width_ = width;
   passes.height_ = height;
@@ -60,18 +68,33 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
   passes.pixels_ = std::move(*pixels);
   passes.defines_ = tree.defines();
   passes.defines_.emplace_back("OPT_AIR", air ? "1" : "0");
-  gpu::Program* programs[] = {&passes.marchAll_, &passes.marchSixteenth_, &passes.marchList_};
+  if (auto used = passes.use(quality); !used) return used.error();
+  auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
+  if (!reproject) return reproject.error();
+  passes.reproject_ = std::move(*reproject);
+  return passes;
+}
+
+Result<void> CloudPasses::use(const Quality& quality) {
+  const gpu::Defines rules = rulesOf(quality);
+  std::string key;
+  for (const auto& [name, value] : rules) key += value + " ";
+  if (const auto found = marches_.find(key); found != marches_.end()) {
+    march_ = &found->second;
+    return {};
+  }
+  Programs made;
+  gpu::Program* programs[] = {&made.all, &made.sixteenth, &made.list};
   for (int i = 0; i < 3; ++i) {
-    gpu::Defines variant = passes.defines_;
+    gpu::Defines variant = defines_;
+    variant.insert(variant.end(), rules.begin(), rules.end());
     variant.emplace_back("PIXELS", std::to_string(i));
     auto program = gpu::Program::compute("pass/march/march.comp", variant);
     if (!program) return program.error();
     *programs[i] = std::move(*program);
   }
-  auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
-  if (!reproject) return reproject.error();
-  passes.reproject_ = std::move(*reproject);
-  return passes;
+  march_ = &marches_.emplace(key, std::move(made)).first->second;
+  return {};
 }
 
 void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int target) const {
@@ -96,11 +119,12 @@ void CloudPasses::setMotion(const gpu::Program& program, const ViewFrame& view) 
   program.set("u_oldUp", glm::vec3(last_.up / last_.tanY));
 }
 
-void CloudPasses::preview(const Scene& scene) { marchSpare(marchAll_, scene); }
+void CloudPasses::preview(const Scene& scene) { marchSpare(march_->all, scene); }
 
 Result<void> CloudPasses::show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds) {
   if (!given_.valid()) {
-    gpu::Defines variant = defines_;
+    gpu::Defines variant = defines_, rules = rulesOf(scene.quality);  // it compiles the march, and does not call it
+    variant.insert(variant.end(), rules.begin(), rules.end());
     variant.emplace_back("PIXELS", "3");
     auto program = gpu::Program::compute("pass/march/march.comp", variant);
     if (!program) return program.error();
@@ -125,13 +149,13 @@ void CloudPasses::marchSpare(const gpu::Program& program, const Scene& scene) co
 }
 
 void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
-  for (const gpu::Program* p : {&marchAll_, &marchSixteenth_, &marchList_}) setLight(*p, scene);
+  for (const gpu::Program* p : {&march_->all, &march_->sixteenth, &march_->list}) setLight(*p, scene);
   const int old = current_;
   current_ = 1 - current_;
   if (mode == FrameMode::Full || !haveHistory_) {
     timer.begin("march");
-    march(marchAll_, {0, 0}, current_);
-    marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
+    march(march_->all, {0, 0}, current_);
+    march_->all.dispatch(groups(width_, 8), groups(height_, 8));
     timer.end();
   } else {
     const glm::ivec2 offset{kOrder[phase_ % 16][0], kOrder[phase_ % 16][1]};
@@ -139,10 +163,10 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     light_[old].bind(WK_CLOUD_LIGHT_UNIT);
     aux_[old].bind(WK_CLOUD_AUX_UNIT);
     timer.begin("march");
-    setMotion(marchSixteenth_, view);
+    setMotion(march_->sixteenth, view);
     change_.bindImage(2, GL_WRITE_ONLY);
-    march(marchSixteenth_, offset, current_);
-    marchSixteenth_.dispatch(groups(width_, 32), groups(height_, 32));
+    march(march_->sixteenth, offset, current_);
+    march_->sixteenth.dispatch(groups(width_, 32), groups(height_, 32));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     timer.end();
     timer.begin("reproject");
@@ -161,8 +185,8 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     timer.end();
     timer.begin("march");
-    march(marchList_, offset, current_);
-    marchList_.use();
+    march(march_->list, offset, current_);
+    march_->list.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pixels_.id());
     glDispatchComputeIndirect(0);
     timer.end();

@@ -61,7 +61,9 @@ TEST_F(Truth, MarchConvergesToTheReference) {
     double error[4];
     int n = 0;
     for (const double step : {0.32, 0.16, 0.08, 0.01}) {
-      renderer->setStep(step);
+      Quality quality = renderer->scene().quality;
+      quality.step = step;
+      ASSERT_TRUE(renderer->setMarch(quality).ok());
       renderer->preview(view);
       error[n++] = difference(renderer->radiance(), truth);
     }

@@ -61,8 +61,6 @@ class SourceField final : public CloudField {
   double sunDepth(glm::dvec3 position_planet) const;
 
  private:
-  double highest_m() const { return root_.half_m - root_.planetRadius_m; }  // the root cube holds all below it
-
   const DensitySource& source_;
   const RootFrame& root_;
   SourceSettings settings_;
