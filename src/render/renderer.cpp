@@ -25,7 +25,6 @@ namespace {
 constexpr std::uint64_t kLatency = 2;            // edits computed from frame k are applied at frame k + 2
 constexpr double kVoxelPixels = 0.78;            // finer is noise; at 180 lines this keeps K inside the octree maps (kMapReach)
 constexpr std::uint32_t kSettleBricks = 8192;    // bricks of one step while settling: nothing is drawn in between
-constexpr double kCloudShell_m = 20'000;         // the octree's root reaches this far above the ground
 constexpr int kMostSettleSteps = 4000;           // far over the count a tree of the largest budget needs
 constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and their alignment
 
