@@ -95,7 +95,7 @@ TEST_F(Twins, AddressesWalksAndLevels) {
                               local.y,
                               local.z,
                               walkError(t, x.x),
-                              pastExit(t, x.x),
+                              leaveNode(walk, nodeSteps(p, level), levelSteps(level), t, x.x + 0.01f),
                               levelSteps(level),
                               detailAt(x.y * 70000, 16).parentWeight,
                               uintBitsToFloat(walk.origin.x),
