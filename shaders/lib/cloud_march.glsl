@@ -154,7 +154,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       path.brick = wordBrick(word);
       level = empty ? wordLevel(bounding) : wordLevel(word);
       steps = nodeSteps(p, level);
-      next = min(t + nodeExit(steps, levelSteps(level), walk.ahead, walk.metrePerStep) + pastExit(away), end);
+      next = min(t + leaveNode(walk, steps, levelSteps(level), away), end);
 #if SKIP_EMPTY
       t = empty ? next : t;
 #else

@@ -17,6 +17,7 @@ void addBench(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addProbe(CLI::App& app, Action& action);
+void addStress(CLI::App& app, Action& action);
 
 // --size --budget --depth --step --detail --seed --gpu, then --quiet --json.
 void addQualityOptions(CLI::App& command, CommonOptions& options);
