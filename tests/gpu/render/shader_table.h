@@ -40,9 +40,13 @@ inline std::vector<ShaderVariant> shaderTable() {
     for (const char* source : {"lib/clouds/layers.glsl", "lib/clouds/sphere.glsl"})
       table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}}});
     table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
-    for (const char* pixels : {"0", "1", "2"})
-      for (const char* air : {"0", "1"})
-        table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"PIXELS", pixels}}});
+    const auto march = [&](const char* air, int pixels, int integrator, int rule, const char* skip) {
+      table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"INTEGRATOR", std::to_string(integrator)},
+                                                 {"STEP_RULE", std::to_string(rule) + "u"}, {"SKIP_EMPTY", skip}, {"PIXELS", std::to_string(pixels)}}});
+    };
+    for (int pixels = 0; pixels < 3; ++pixels)
+      for (const char* air : {"0", "1"}) march(air, pixels, 5, 2, "1");
+    for (int integrator = 0; integrator < 7; ++integrator) march("1", 0, integrator, integrator % 5, integrator % 2 ? "0" : "1");
   }
   for (const auto& [layers, peak] : {std::pair{1, -1}, {3, 1}, {6, 5}}) {
     const auto sky = [&, layers = layers, peak = peak](const char* pass, gpu::Defines more = {}) {
