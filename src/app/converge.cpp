@@ -10,6 +10,7 @@
 #include "welkin/app/flight.h"
 #include "welkin/app/stop.h"
 #include "welkin/core/files.h"
+#include "welkin/core/log.h"
 #include "welkin/core/progress.h"
 #include "welkin/core/units.h"
 #include "welkin/measure/flip.h"
@@ -23,7 +24,7 @@ constexpr int kHistoryFrames = 16;     // one pixel in 16 a frame: until every p
 constexpr double kTruthStep = 1 / 8.;  // of the finest step of the sweep,
 constexpr double kTruthMost = 1 / 32.;  // and at most so much of the scene's own
 constexpr double kShowFull_255 = 16;   // difference that is shown as white
-constexpr int kMostShown = 5;          // pictures of differences
+constexpr std::size_t kFromFront = 4;  // pictures of differences, evenly along the front; and the worst
 
 class Convergence {
  public:
@@ -33,9 +34,15 @@ class Convergence {
   Result<void> run(Trees& trees, Progress& progress) {
     trees_ = &trees;
     progress_ = &progress;
+    for (std::size_t i = 0; i < settings_.size();) {
+      const auto opened = trees.open(settings_[i]);
+      // A preset's smaller budgets may be less than the scene needs; what was asked for by name must work.
+      if (!opened && (!options_.sweep.empty() || i == 0)) return opened;
+      if (!opened) log::warn("{}: left out: {}", settings_[i].name, opened.error().message);
+      if (opened) ++i;
+      else settings_.erase(settings_.begin() + std::ptrdiff_t(i));
+    }
     works_.resize(settings_.size());
-    for (const auto& s : settings_)
-      if (auto made = trees.open(s); !made) return made;
     truth_ = truthSetting();
     if (auto made = trees.open(truth_); !made) return made;
     if (auto fixed = fixExposure(); !fixed) return fixed;
@@ -257,19 +264,21 @@ class Convergence {
 
   void addPictures(measure::ConvergeReport& out) const {
     if (auto png = pngBytes(firstTruth_, {})) out.pictures.push_back({"truth", out.truth.description, *png});
-    // Some of the front, and the worst of all.
-    auto names = measure::paretoFront(out.rows);
-    while (int(names.size()) > kMostShown - 1) names.erase(names.begin() + std::ptrdiff_t(names.size() / 2));
+    std::vector<std::string> names;
+    const auto add = [&names](const std::string& name) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    const auto front = measure::paretoFront(out.rows);
     const auto worst = std::max_element(out.rows.begin(), out.rows.end(),
                                         [](const auto& a, const auto& b) { return a.error.rmse_255 < b.error.rmse_255; });
-    if (worst != out.rows.end() && std::find(names.begin(), names.end(), worst->setting.name) == names.end())
-      names.insert(names.begin(), worst->setting.name);
+    if (worst != out.rows.end()) add(worst->setting.name);
+    for (std::size_t i = 0; i < kFromFront && !front.empty(); ++i) add(front[i * (front.size() - 1) / (kFromFront - 1)]);
     for (const auto& name : names) {
       for (std::size_t i = 0; i < out.rows.size(); ++i) {
         if (out.rows[i].setting.name != name) continue;
         const auto& r = out.rows[i];
         if (auto png = pngBytes(works_[i].difference, {}))
-          out.pictures.push_back({name, fmt::format("RMSE {:.3f}, {:.1f} ms; palest: {:g}/255 and more", r.error.rmse_255, r.time_ms.median,
+          out.pictures.push_back({name, fmt::format("RMSE {:.3f}, {:.1f} ms; black: none, palest: {:g}/255 and more", r.error.rmse_255, r.time_ms.median,
                                                     kShowFull_255), *png});
       }
     }

@@ -29,6 +29,7 @@ std::vector<double> ticks(const Axis& axis) {
   const double decades = axis.high - axis.low;
   std::vector<double> steps{1, 2, 5};
   if (decades > 3.2) steps = {1};
+  if (decades < 1.7) steps = {1, 2, 3, 5, 7};
   if (decades < 0.9) steps = {1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9};
   std::vector<double> out;
   for (int d = int(std::floor(axis.low)); d <= int(std::ceil(axis.high)); ++d)

@@ -11,7 +11,7 @@ from pathlib import Path
 WELKIN = os.environ["WELKIN"]
 ROOT = Path(__file__).resolve().parents[2]
 SCENE = ROOT / "tests/image/scene.json"
-SMALL = ["--size", "96x54", "--budget", "48MiB", "--depth", "9", "--detail", "12", "--repeat", "2", "--gpu", "software", "--quiet"]
+SMALL = ["--size", "96x54", "--budget", "48MiB", "--depth", "9", "--detail", "12", "--gpu", "software", "--quiet"]
 
 
 class Converge(unittest.TestCase):
@@ -23,8 +23,8 @@ class Converge(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
-    def command(self, *more):
-        return [WELKIN, "converge", str(SCENE), "--view", "layers", *SMALL, "--json", str(self.json), "--html", str(self.html), *more]
+    def command(self, *more, repeat=2):
+        return [WELKIN, "converge", str(SCENE), "--view", "layers", *SMALL, "--repeat", str(repeat), "--json", str(self.json), "--html", str(self.html), *more]
 
     def test_small_sweep(self):
         done = subprocess.run(self.command("--preset", "quick"), capture_output=True, text=True, timeout=120)
@@ -53,17 +53,19 @@ class Converge(unittest.TestCase):
         self.assertIn("data:image/png;base64,", html)
 
     def test_settings_that_need_trees_of_their_own(self):
-        done = subprocess.run(self.command("--sweep", "brick-bits=8,16", "--sweep", "light=0.5,1"), capture_output=True, text=True, timeout=120)
+        done = subprocess.run(
+            self.command("--sweep", "brick-bits=8,16", "--sweep", "light=0.5,1", "--step", "0.04"), capture_output=True, text=True, timeout=120
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = json.loads(self.json.read_text())["settings"]
         self.assertEqual([(r["brick_bits"], r["light"]) for r in rows], [(8, 0.5), (8, 1), (16, 0.5), (16, 1)])
         errors = [r["error"]["rmse_255"] for r in rows]
         self.assertEqual(len(set(errors)), 4)  # each setting does something
-        self.assertEqual(min(errors), errors[3])
+        self.assertEqual(min(errors), errors[3])  # at a step whose own error is small beside them
 
     def test_a_stop_leaves_nothing(self):
         self.json.write_text("old")
-        run = subprocess.Popen(self.command("--repeat", "1000"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        run = subprocess.Popen(self.command("--preset", "quick", repeat=1000), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         time.sleep(2)
         run.send_signal(signal.SIGINT)
         _, err = run.communicate(timeout=60)
