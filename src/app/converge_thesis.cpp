@@ -19,7 +19,8 @@ struct Published {
 constexpr std::array<std::array<Published, 3>, 3> kPublished{
     {{{{19.4, 0}, {12.5, 0.52}, {9.9, 1.39}}}, {{{15.2, 0.72}, {8.9, 0.97}, {6.2, 1.76}}}, {{{12.8, 1.11}, {7.4, 1.37}, {4.9, 2.18}}}}};
 constexpr std::array<double, 3> kSteps{0.1, 0.2, 0.4};
-constexpr std::array<std::uint64_t, 3> kParts{1, 2, 4};  // of the budget
+constexpr std::array<std::uint64_t, 3> kParts{1, 2, 4};
+constexpr std::array<const char*, 3> kPartNames{"all of the tree", "half of it", "a quarter"};
 
 constexpr std::uint64_t kFirstTry_bytes = 256ull << 20, kLastTry_bytes = 16ull << 30;
 constexpr double kFull = 0.98;            // a pool fuller than this may have wanted more
@@ -52,7 +53,7 @@ BudgetStepTable measured(const std::vector<ConvergeRow>& rows, bool thesis) {
   budgets.erase(std::unique(budgets.begin(), budgets.end()), budgets.end());
   for (const double step : steps) out.steps.push_back(fmt::format("step {:g}", step));
   for (const std::uint64_t budget : budgets) {
-    out.budgets.push_back(bytesText(budget));
+    out.budgets.push_back(fmt::format("{}, {}", bytesText(budget), kPartNames[std::min(out.budgets.size(), kPartNames.size() - 1)]));
     auto& cells = out.cells.emplace_back(steps.size());
     for (const auto& row : rows) {
       if (ofThesis(row.setting) != thesis || row.setting.quality.budget_bytes != budget) continue;
@@ -66,7 +67,7 @@ BudgetStepTable measured(const std::vector<ConvergeRow>& rows, bool thesis) {
 }  // namespace
 
 // A tree that goes only as deep as pixels show, on ever larger budgets until it is not full: empty nodes have no bricks, so it ends.
-Result<std::uint64_t> fillingBudget(const Poses& poses, Trees& trees, const ConvergeSetting& base) {
+Result<ThesisBudget> fillingBudget(const Poses& poses, Trees& trees, const ConvergeSetting& base) {
   ConvergeSetting setting = base;
   setting.quality.depth = kThesisDepth;
   for (std::uint64_t budget = kFirstTry_bytes; budget <= kLastTry_bytes; budget *= 4) {
@@ -81,21 +82,20 @@ Result<std::uint64_t> fillingBudget(const Poses& poses, Trees& trees, const Conv
     scene.quality = setting.quality;
     const auto rest = leastBudget(trees.context(), scene);
     if (!rest) return rest.error();
-    const double needed = double(*rest) + kSlack * full * double(budget);
-    return std::uint64_t(std::ceil(needed / (1 << 20))) << 20;
+    return ThesisBudget{*rest, std::uint64_t(kSlack * full * double(budget - *rest))};
   }
   return Error{fmt::format("the view is not filled by {}", bytesText(kLastTry_bytes))};
 }
 
-std::vector<ConvergeSetting> thesisSettings(const ConvergeSetting& base, std::uint64_t budget_bytes) {
+std::vector<ConvergeSetting> thesisSettings(const ConvergeSetting& base, const ThesisBudget& budget) {
   ConvergeSetting thesis = base, ours = base;
   thesis.quality.depth = ours.quality.depth = kThesisDepth;
-  thesis.quality.budget_bytes = ours.quality.budget_bytes = budget_bytes;
+  thesis.quality.budget_bytes = ours.quality.budget_bytes = budget.of(1);
   thesis.quality.integrator = Integrator::Rectangle;
   thesis.quality.stepRule = StepRule::Node;
   thesis.quality.skipEmpty = false;
   SweepAxis budgets{"budget", {}}, steps{"step", {}};
-  for (const std::uint64_t part : kParts) budgets.values.push_back(bytesExact(budget_bytes / part));
+  for (const std::uint64_t part : kParts) budgets.values.push_back(bytesExact(budget.of(part)));
   for (const double step : kSteps) steps.values.push_back(fmt::format("{:g}", step));
   std::vector<ConvergeSetting> out;
   merge(out, combine(thesis, {budgets, steps}));
@@ -111,8 +111,8 @@ std::vector<BudgetStepTable> thesisTables(const std::vector<ConvergeRow>& rows) 
     for (const auto& p : row) cells.push_back({p.time_ms, p.rmse_255, std::nullopt, ""});
   }
   std::vector<BudgetStepTable> out{published, measured(rows, true), measured(rows, false)};
-  out[1].title = "Here, its way: rectangles of the step times half the node, empty nodes marched; RMSE against its own best picture (the truth)";
-  out[2].title = "Here, ours: the default integrator and step rule at the same factors; RMSE against its own best picture (the truth)";
+  out[1].title = "Here, its way: rectangles of the step times half the node, empty nodes marched; RMSE against its own best picture, in brackets against the truth";
+  out[2].title = "Here, ours: the default integrator and step rule at the same factors; RMSE against its own best picture, in brackets against the truth";
   return out;
 }
 

@@ -49,8 +49,8 @@ class Trees {
   std::vector<std::string> notes_;
 };
 
-// The least budget with which the tree of the first pose is as fine as its pixels show, down to the thesis' depth.
-Result<std::uint64_t> fillingBudget(const Poses& poses, Trees& trees, const measure::ConvergeSetting& base);
+// The least tree of the first pose that is as fine as its pixels show, down to the thesis' depth.
+Result<ThesisBudget> fillingBudget(const Poses& poses, Trees& trees, const measure::ConvergeSetting& base);
 
 // What the options ask for. The thesis' preset looks for its budget and limits the tree to what pixels show (Poses::scene).
 Result<std::vector<measure::ConvergeSetting>> chooseSettings(const ConvergeOptions& options, Poses& poses, Trees& trees);

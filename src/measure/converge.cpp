@@ -91,12 +91,12 @@ std::string ConvergeReport::table() const {
   for (const auto& order : observedOrders(rows, truth.tolerance_255))
     out += fmt::format("observed order {:>5.2f} ({} points): {}\n", order.order, order.points, order.series);
   for (const auto& t : tables) {
-    out += fmt::format("{}\n{:<14}", t.title, "");
-    for (const auto& step : t.steps) out += fmt::format("{:>22}", step);
+    out += fmt::format("{}\n{:<26}", t.title, "");
+    for (const auto& step : t.steps) out += fmt::format("{:>25}", step);
     for (std::size_t b = 0; b < t.cells.size(); ++b) {
-      out += fmt::format("\n{:<14}", t.budgets[b]);
+      out += fmt::format("\n{:<26}", t.budgets[b]);
       for (const auto& cell : t.cells[b])
-        out += fmt::format("{:>22}", cell.truth_rmse_255
+        out += fmt::format("{:>25}", cell.truth_rmse_255
                                          ? fmt::format("{:.1f} ms / {:.2f} ({:.2f})", cell.time_ms, cell.rmse_255, *cell.truth_rmse_255)
                                          : fmt::format("{:.1f} ms / {:.2f}", cell.time_ms, cell.rmse_255));
       if (!t.cells[b].empty() && !t.cells[b].front().residency.empty()) out += "  " + t.cells[b].front().residency;

@@ -60,7 +60,7 @@ TEST(Sweep, presetsHaveSettingsWithDifferentNames) {
 }
 
 TEST(Thesis, budgetsAndStepsOfTheTable) {
-  const auto all = thesisSettings({}, 400ull << 20);
+  const auto all = thesisSettings({}, {100ull << 20, 400ull << 20});
   ASSERT_EQ(all.size(), 18u);  // its way and ours
   EXPECT_EQ(all[0].quality.integrator, Integrator::Rectangle);
   EXPECT_EQ(all[0].quality.stepRule, StepRule::Node);
@@ -71,7 +71,7 @@ TEST(Thesis, budgetsAndStepsOfTheTable) {
   const auto tables = thesisTables(rows);
   ASSERT_EQ(tables.size(), 3u);
   EXPECT_EQ(tables[0].cells[2][0].time_ms, 12.8);  // published: 2 GiB, step 0.1
-  EXPECT_THAT(tables[1].budgets, ElementsAre("400 MiB", "200 MiB", "100 MiB"));
+  EXPECT_THAT(tables[1].budgets, ElementsAre("500 MiB, all of the tree", "300 MiB, half of it", "200 MiB, a quarter"));
   EXPECT_THAT(tables[1].steps, ElementsAre("step 0.1", "step 0.2", "step 0.4"));
   EXPECT_EQ(tables[1].cells[2][1].time_ms, 7);   // smallest budget, middle step
   EXPECT_EQ(tables[2].cells[0][0].time_ms, 9);

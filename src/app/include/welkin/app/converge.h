@@ -34,7 +34,11 @@ std::vector<measure::ConvergeSetting> presetSettings(const std::string& preset, 
 
 // The thesis' Table 6.1: its steps and budgets with its way to integrate, and with ours.
 constexpr int kThesisDepth = 13;
-std::vector<measure::ConvergeSetting> thesisSettings(const measure::ConvergeSetting& base, std::uint64_t budget_bytes);
+struct ThesisBudget {  // its budgets are those of the tree alone; ours cover tables, maps and the rest too, which no part of the tree changes
+  std::uint64_t rest_bytes = 0, tree_bytes = 0;
+  std::uint64_t of(std::uint64_t parts) const { return ((rest_bytes + tree_bytes / parts + (1 << 20) - 1) >> 20) << 20; }  // whole MiB
+};
+std::vector<measure::ConvergeSetting> thesisSettings(const measure::ConvergeSetting& base, const ThesisBudget& budget);
 std::vector<measure::BudgetStepTable> thesisTables(const std::vector<measure::ConvergeRow>& rows);
 
 struct ConvergeOptions {
