@@ -2,6 +2,7 @@
 // INTEGRATOR in segments by the rule STEP_RULE; the last one of a ray ends at the ground or where the clouds do.
 #include "welkin/shared/camera.glsl.h"
 #include "welkin/shared/cloud_light.glsl.h"
+#include "welkin/shared/cloud_weights.glsl.h"
 #include "welkin/shared/integrators.glsl.h"
 #include "welkin/shared/step_rules.glsl.h"
 #include "lib/walk.glsl"
@@ -18,7 +19,6 @@ struct CloudRay {
 
 const float kOpaqueTransmittance = 1.0 / 512.0;
 const int kMaxCells = 4096;         // an opaque or left ray ends long before; software GL stops at 65535 turns in all
-const float kSkyDistance_m = 1e12;  // what is not there moves with the camera: only rotation reprojects it
 
 // Seen from outside, at the limb, a voxel's height is seen, not its width: cloud that coarse voxels carry above the source's top would
 // stand out from the disc, and is left out. 1 past the limb, 0 away from it and inside the air, where voxels are small.

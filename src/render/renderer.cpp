@@ -87,6 +87,8 @@ struct Renderer::Impl {
   void workOnSky();
   void useAir(const Scene& changed);
   Result<void> setAir(const Scene& changed, AirChange how);
+  ViewFrame frameOf(const View& view) const { return viewFrame(view, scene.planet.radius_m, shellTop_m(), settings.width, settings.height); }
+  void drawAside(const View& view, const std::function<void()>& march);  // a picture that leaves history, tree and exposure alone
   void beginPicture(const ViewFrame& frame);                  // camera, counters, sky
   // Composite and exposure. sinceLast_s: ExposurePass::meter; none: the exposure stays where it is, unless there is none yet.
   void endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s);
@@ -299,7 +301,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
   FrameStats stats;
   stats.frame = r.frameNumber++;
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
-  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
+  const ViewFrame frame = r.frameOf(view);
   if (!r.settings.reprojection) mode = FrameMode::Full;
 
   FrameEdits edits;
@@ -355,7 +357,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   FrameStats stats;
   if (!r.plan.clouds) return r.report(stats);
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
-  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
+  const ViewFrame frame = r.frameOf(view);
   std::uint64_t made = 0;
   std::map<std::uint32_t, BrickJob> lit;
   int batches = 0;
@@ -402,17 +404,40 @@ Result<void> Renderer::setMarch(const Quality& quality) {
 
 void Renderer::preview(const View& view) {
   Impl& r = *impl_;
-  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
-  const bool timed = std::exchange(r.timer.enabled, false);
-  r.beginPicture(frame);
-  if (r.plan.clouds) {
-    r.updateTreeBlock(view.position_m);
-    r.tree->updateMaps(view.position_m);
-    r.tree->bind();
-    r.clouds->preview(r.scene);
+  r.drawAside(view, [&] { r.clouds->preview(r.scene); });
+}
+
+void Renderer::Impl::drawAside(const View& view, const std::function<void()>& march) {
+  const ViewFrame frame = frameOf(view);
+  const bool timed = std::exchange(timer.enabled, false);
+  beginPicture(frame);
+  if (plan.clouds) {
+    updateTreeBlock(view.position_m);
+    tree->updateMaps(view.position_m);
+    tree->bind();
+    march();
   }
-  r.endPicture(frame, view, {});
-  r.timer.enabled = timed;
+  endPicture(frame, view, {});
+  timer.enabled = timed;
+}
+
+shared::CameraBlock Renderer::camera(const View& view) const { return impl_->frameOf(view).block; }
+
+TreeData Renderer::tree(const View& view) {
+  Impl& r = *impl_;
+  if (!r.plan.clouds) return {};
+  r.greatestDetail = static_cast<float>(pixelDetail(r.frameOf(view), r.settings.height));
+  r.updateTreeBlock(view.position_m);
+  return r.tree->readBack();
+}
+
+Result<void> Renderer::drawWith(const View& view, std::span<const shared::CloudWeights> clouds) {
+  Impl& r = *impl_;
+  if (r.plan.clouds && clouds.size() != std::size_t(r.settings.width) * std::size_t(r.settings.height))
+    return Error{fmt::format("expected what the clouds bring for {} x {} pixels, got {}", r.settings.width, r.settings.height, clouds.size())};
+  Result<void> shown;
+  r.drawAside(view, [&] { shown = r.clouds->show(r.account, r.scene, clouds); });
+  return shown;
 }
 
 double Renderer::shownDetail(const View& view) const {

@@ -7,6 +7,7 @@
 
 #include "welkin/gpu/program.h"
 #include "welkin/gpu/resources.h"
+#include "welkin/octree/tree_data.h"
 #include "welkin/physics/root_frame.h"
 #include "welkin/shared/tree_block.glsl.h"
 #include "welkin/stream/streamer.h"
@@ -37,6 +38,7 @@ class ResidentTree {
   void updateBlock(const shared::TreeBlock& block);          // detail, band, sun … ; the layout's fields are filled in here
   void bind() const;                                         // nodes, maps, bricks, block
   void bindBrickImages(GLenum access) const;
+  TreeData readBack() const;                                 // waits for the GPU
   const TreeLayout& layout() const { return layout_; }
   gpu::Defines defines() const {
     gpu::Defines all{{"BRICK_TEXTURES", std::to_string(layout_.textures)}};

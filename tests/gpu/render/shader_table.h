@@ -52,7 +52,7 @@ inline std::vector<ShaderVariant> shaderTable() {
       table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"INTEGRATOR", std::to_string(integrator)},
                                                  {"STEP_RULE", std::to_string(rule) + "u"}, {"SKIP_EMPTY", skip}, {"PIXELS", std::to_string(pixels)}}});
     };
-    for (int pixels = 0; pixels < 3; ++pixels)
+    for (int pixels = 0; pixels < 4; ++pixels)
       for (const char* air : {"0", "1"}) march(air, pixels, 5, 2, "1");
     for (int integrator = 0; integrator < 7; ++integrator) march("1", 0, integrator, integrator % 5, integrator % 2 ? "0" : "1");
   }

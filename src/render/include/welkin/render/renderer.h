@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,11 @@
 #include "welkin/gpu/context.h"
 #include "welkin/gpu/memory.h"
 #include "welkin/gpu/timer.h"
+#include "welkin/octree/tree_data.h"
 #include "welkin/physics/scene.h"
 #include "welkin/render/frame_plan.h"
+#include "welkin/shared/camera.glsl.h"
+#include "welkin/shared/cloud_weights.glsl.h"
 #include "welkin/stream/streamer.h"
 
 namespace welkin {
@@ -83,6 +87,11 @@ class Renderer {
   // Draws this view from the tree as it is now, every pixel marched; no edit is applied; history, frame count and metered exposure
   // stay. For comparing: image() and radiance() then return this picture.
   void preview(const View& view);
+  // For the reference (docs/reference.md): the view's rays, the tree as preview(view) would see it (clouds only), and preview() with what
+  // each pixel's ray through the clouds brings given, width * height from the top row, instead of marched.
+  shared::CameraBlock camera(const View& view) const;
+  TreeData tree(const View& view);
+  Result<void> drawWith(const View& view, std::span<const shared::CloudWeights> clouds);
   Image8 image() const;
   ImageF radiance() const;
   double shownDetail(const View& view) const;  // nodes a radian past which voxels are finer than this view's pixels
