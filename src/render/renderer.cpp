@@ -133,7 +133,7 @@ Result<void> Renderer::Impl::create() {
   if (!made) return made.error();
   source = std::move(*made);
   if (!source->note().empty()) note(source->note());
-  const TreeLayout layout = TreeLayout::fit(treeBudget(scene, account, BrickPasses::bytes(*source)), std::uint32_t(scene.quality.depth));
+  const TreeLayout layout = TreeLayout::fit(treeBudget(scene, account, BrickPasses::bytes(*source)), std::uint32_t(scene.quality.depth), settings.brickBits);
   if (layout.bricks == 0) {
     const std::uint64_t least = account.used() + BrickPasses::bytes(*source) + kSmallBuffers + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
     return Error{fmt::format("budget: {} MiB is too little for this scene at depth {}: the least that works is {} MiB",
@@ -142,7 +142,7 @@ Result<void> Renderer::Impl::create() {
   auto residentTree = ResidentTree::create(account, layout, root);
   if (!residentTree) return residentTree.error();
   tree.emplace(std::move(*residentTree));
-  auto brickPasses = BrickPasses::create(account, *source, *tree, plan.sun);
+  auto brickPasses = BrickPasses::create(account, *source, *tree, plan.sun, settings.light);
   if (!brickPasses) return brickPasses.error();
   bricks.emplace(std::move(*brickPasses));
   auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan.air, scene.quality);
@@ -437,6 +437,11 @@ Result<void> Renderer::drawWith(const View& view, std::span<const shared::CloudW
   Result<void> shown;
   r.drawAside(view, [&] { shown = r.clouds->show(r.account, r.scene, clouds); });
   return shown;
+}
+
+double Renderer::shownDetail(const View& view) const {
+  const Impl& r = *impl_;
+  return pixelDetail(viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height), r.settings.height);
 }
 
 Image8 Renderer::image() const {

@@ -40,6 +40,14 @@ inline std::vector<ShaderVariant> shaderTable() {
     for (const char* source : {"lib/clouds/layers.glsl", "lib/clouds/sphere.glsl"})
       table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}}});
     table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
+    for (const char* format : {"rg16", "rg8"}) {  // for comparisons only
+      const gpu::Defines bricks{{"BRICK_TEXTURES", textures}, {"BRICK_FORMAT", format}, {"BRICK_STEPS", format[2] == '8' ? "255.0" : "65535.0"}};
+      gpu::Defines generate = bricks, light = bricks;
+      generate.emplace_back("SOURCE_SHADER", "lib/clouds/layers.glsl");
+      light.insert(light.end(), {{"LIGHT_REACH", "3.000000"}, {"LIGHT_NEAR_SAMPLES", "6"}, {"LIGHT_NODE_SAMPLES", "4"}});
+      table.push_back({"pass/bricks/generate.comp", generate});
+      table.push_back({"pass/light/light.comp", light});
+    }
     const auto march = [&](const char* air, int pixels, int integrator, int rule, const char* skip) {
       table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"INTEGRATOR", std::to_string(integrator)},
                                                  {"STEP_RULE", std::to_string(rule) + "u"}, {"SKIP_EMPTY", skip}, {"PIXELS", std::to_string(pixels)}}});

@@ -27,6 +27,8 @@ struct RenderSettings {
   std::uint32_t workerJitterSeed = 0;   // tests of determinism: random delays in the worker
   bool reprojection = true;             // march one pixel in 16 a frame
   double sky_ms = 8;                    // a frame's work on the light of a changed air (Renderer::setAir); at least one slice of it
+  int brickBits = 16;                   // of each number of a brick, 8 or 16: 8 is for comparisons (docs/decisions/0012)
+  double light = 1;                     // reach and samples of the rays to the sun; others than 1 for comparisons
   bool timing = true;                   // per-pass times (on software GL: glFinish after each pass)
   bool waitForEdits = true;             // true: edits of frame k apply at frame k + 2, whatever it takes (deterministic); false: when ready
 };
@@ -92,6 +94,7 @@ class Renderer {
   Result<void> drawWith(const View& view, std::span<const shared::CloudWeights> clouds);
   Image8 image() const;
   ImageF radiance() const;
+  double shownDetail(const View& view) const;  // nodes a radian past which voxels are finer than this view's pixels
   const FramePlan& plan() const;
   const Scene& scene() const;
   const gpu::MemoryAccount& memory() const;
