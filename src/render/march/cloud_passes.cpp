@@ -37,37 +37,41 @@ ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, 
   return f;
 }
 
-Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, bool air) {
+Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan) {
   CloudPasses passes;
   passes.width_ = width;
   passes.height_ = height;
-  for (int i = 0; i < 2; ++i) {
-    auto light = gpu::Texture::create(account, "cloud history", {.format = GL_RGBA16F, .width = width, .height = height, .frameTarget = true});
-    if (!light) return light.error();
-    auto aux = gpu::Texture::create(account, "cloud history", {.format = GL_RG32F, .width = width, .height = height, .frameTarget = true});
-    if (!aux) return aux.error();
-    auto age = gpu::Texture::create(account, "cloud history", {.format = GL_R8UI, .width = width, .height = height, .filter = GL_NEAREST, .frameTarget = true});
-    if (!age) return age.error();
-    passes.age_[i] = std::move(*age);
-    passes.light_[i] = std::move(*light);
-    passes.aux_[i] = std::move(*aux);
+  passes.history_ = plan.history;
+  const auto target = [&](gpu::Texture& out, gpu::TextureSpec spec) -> Result<void> {
+    spec.frameTarget = true;
+    auto made = gpu::Texture::create(account, "cloud history", spec);
+    if (!made) return made.error();
+    out = std::move(*made);
+    return {};
+  };
+  for (int i = 0; i < (plan.history ? 2 : 1); ++i) {
+    if (auto r = target(passes.light_[i], {.format = GL_RGBA16F, .width = width, .height = height}); !r) return r.error();
+    if (plan.aux)
+      if (auto r = target(passes.aux_[i], {.format = GL_RG32F, .width = width, .height = height}); !r) return r.error();
+    if (plan.history)
+      if (auto r = target(passes.age_[i], {.format = GL_R8UI, .width = width, .height = height, .filter = GL_NEAREST}); !r) return r.error();
   }
-  auto change = gpu::Texture::create(account, "cloud change", {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4, .frameTarget = true});
-  if (!change) return change.error();
-  passes.change_ = std::move(*change);
-  auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width) * std::size_t(height) * 4, GL_DYNAMIC_STORAGE_BIT, true);
-  if (!pixels) return pixels.error();
-  passes.pixels_ = std::move(*pixels);
+  const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
   gpu::Defines defines = tree.defines();
-  defines.emplace_back("OPT_AIR", air ? "1" : "0");
+  defines.insert(defines.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)}, {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
   gpu::Program* programs[] = {&passes.marchAll_, &passes.marchSixteenth_, &passes.marchList_};
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < (plan.history ? 3 : 1); ++i) {
     gpu::Defines variant = defines;
     variant.emplace_back("PIXELS", std::to_string(i));
     auto program = gpu::Program::compute("pass/march/march.comp", variant);
     if (!program) return program.error();
     *programs[i] = std::move(*program);
   }
+  if (!plan.history) return passes;
+  if (auto r = target(passes.change_, {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4}); !r) return r.error();
+  auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width) * std::size_t(height) * 4, GL_DYNAMIC_STORAGE_BIT, true);
+  if (!pixels) return pixels.error();
+  passes.pixels_ = std::move(*pixels);
   auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
   if (!reproject) return reproject.error();
   passes.reproject_ = std::move(*reproject);
@@ -78,14 +82,15 @@ void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int targ
   program.set("u_size", glm::ivec2(width_, height_));
   program.set("u_offset", offset);
   light_[target].bindImage(0, GL_WRITE_ONLY);
-  aux_[target].bindImage(1, GL_WRITE_ONLY);
-  age_[target].bindImage(3, GL_WRITE_ONLY);
+  if (aux_[target].id()) aux_[target].bindImage(1, GL_WRITE_ONLY);
+  if (history_) age_[target].bindImage(3, GL_WRITE_ONLY);
 }
 
 void CloudPasses::setLight(const Scene& scene) const {
   const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
   const float albedo = float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3;
   for (const gpu::Program* p : {&marchAll_, &marchSixteenth_, &marchList_}) {
+    if (!p->valid()) continue;
     p->set("u_sunIrradiance", irradiance);
     p->set("u_groundAlbedo", albedo);
   }
@@ -98,21 +103,25 @@ void CloudPasses::setMotion(const gpu::Program& program, const ViewFrame& view) 
   program.set("u_oldUp", glm::vec3(last_.up / last_.tanY));
 }
 
+void CloudPasses::show(int target) const {
+  light_[target].bind(WK_CLOUD_LIGHT_UNIT);
+  if (aux_[target].id()) aux_[target].bind(WK_CLOUD_AUX_UNIT);
+}
+
 void CloudPasses::preview(const Scene& scene) {
   setLight(scene);
-  const int spare = 1 - current_;  // the next run() writes every pixel of it
+  const int spare = history_ ? 1 - current_ : 0;  // the next run() writes every pixel of it
   march(marchAll_, {0, 0}, spare);
   marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  light_[spare].bind(WK_CLOUD_LIGHT_UNIT);
-  aux_[spare].bind(WK_CLOUD_AUX_UNIT);
+  show(spare);
 }
 
 void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
   setLight(scene);
   const int old = current_;
-  current_ = 1 - current_;
-  if (mode == FrameMode::Full || !haveHistory_) {
+  current_ = history_ ? 1 - current_ : 0;
+  if (mode == FrameMode::Full || !haveHistory_ || !history_) {
     timer.begin("march");
     march(marchAll_, {0, 0}, current_);
     marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
@@ -152,8 +161,7 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     timer.end();
   }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  light_[current_].bind(WK_CLOUD_LIGHT_UNIT);
-  aux_[current_].bind(WK_CLOUD_AUX_UNIT);
+  show(current_);
   last_ = view;
   haveHistory_ = true;
 }

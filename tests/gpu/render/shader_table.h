@@ -40,9 +40,16 @@ inline std::vector<ShaderVariant> shaderTable() {
     for (const char* source : {"lib/clouds/layers.glsl", "lib/clouds/sphere.glsl"})
       table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}}});
     table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
-    for (const char* pixels : {"0", "1", "2"})
-      for (const char* air : {"0", "1"})
-        table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"PIXELS", pixels}}});
+    const auto march = [&](const char* air, const char* pixels, const char* ground, const char* aux, const char* history) {
+      table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"OPT_GROUND", ground}, {"OPT_AUX", aux},
+                                                 {"OPT_HISTORY", history}, {"PIXELS", pixels}}});
+    };
+    for (const char* air : {"0", "1"}) {
+      for (const char* pixels : {"0", "1", "2"})
+        for (const char* ground : {"0", "1"}) march(air, pixels, ground, "1", "1");
+      for (const char* ground : {"0", "1"}) march(air, "0", ground, "1", "0");
+    }
+    march("0", "0", "0", "0", "0");
   }
   for (const auto& [layers, peak] : {std::pair{1, -1}, {3, 1}, {6, 5}}) {
     const auto sky = [&, layers = layers, peak = peak](const char* pass, gpu::Defines more = {}) {
@@ -59,15 +66,18 @@ inline std::vector<ShaderVariant> shaderTable() {
       sky("probe", {{"SINGLE", "1"}, {"DIFFUSE", diffuse}, {"PIECES", "6"}, {"STRETCHES", "16"}});
     }
   }
-  for (int bits = 0; bits < 16; ++bits) {
+  for (int bits = 0; bits < 64; ++bits) {
+    if ((bits & 24) == 16) continue;  // no picture of the ground without the ground: bit 4 without bit 3
     const auto on = [&](int bit) { return std::string(bits >> bit & 1 ? "1" : "0"); };
-    const gpu::Defines scene{{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_ALBEDO_MAP", on(3)}};
+    const gpu::Defines scene{{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_GROUND", on(3)}, {"OPT_ALBEDO_MAP", on(4)}, {"OPT_LINEAR", on(5)}};
     const auto composite = [&](gpu::Defines more) {
       more.insert(more.begin(), scene.begin(), scene.end());
       table.push_back({"pass/composite/composite.comp", std::move(more)});
     };
-    composite({{"OPT_DISPLAY", "0"}});
-    for (const char* curve : kToneCurveFunctions) composite({{"OPT_DISPLAY", "1"}, {"TONE_CURVE", curve}});
+    const bool linear = bits & 32;
+    if (linear) composite({{"OPT_DISPLAY", "0"}});
+    for (const char* curve : kToneCurveFunctions)
+      if (linear || curve == kToneCurveFunctions[0]) composite({{"OPT_DISPLAY", "1"}, {"TONE_CURVE", curve}});
   }
   table.push_back({"pass/exposure/histogram.comp", {}});
   table.push_back({"pass/exposure/adapt.comp", {}});

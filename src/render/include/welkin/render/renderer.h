@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct RenderSettings {
   double sky_ms = 8;                    // a frame's work on the light of a changed air (Renderer::setAir); at least one slice of it
   bool timing = true;                   // per-pass times (on software GL: glFinish after each pass)
   bool waitForEdits = true;             // true: edits of frame k apply at frame k + 2, whatever it takes (deterministic); false: when ready
+  std::optional<View> onlyView = {};    // one picture, of this view: frames march every pixel, and of other views would lack parts
+  bool linear = true;                   // radiance() will be read; else it may be empty
+  std::set<std::string> forced = {};    // reasons to leave something out that are not to hold (LeftOut::name)
 };
 
 // What the frame's march and the checks counted, whole picture.
@@ -46,6 +50,7 @@ struct FrameStats {
   std::uint64_t bytesUsed = 0, bytesBudget = 0, frameTargetBytes = 0;
   double sampleDetail = 0;
   double exposure_ev = 0;  // at which the picture is shown: of the view, of the scene, or metered
+  std::string leftOut;     // why all but the background was left out of this frame, or all of it (LeftOut::name); empty: it was drawn
   double skyProgress = 1;  // of the light of a changed air (Renderer::setAir), 0..1; 1: it is shown
 };
 
@@ -80,8 +85,8 @@ class Renderer {
   // stay. For comparing: image() and radiance() then return this picture.
   void preview(const View& view);
   Image8 image() const;
-  ImageF radiance() const;
-  const FramePlan& plan() const;
+  ImageF radiance() const;  // without pixels if nobody was to read it (RenderSettings::linear)
+  const FramePlan& plan() const;  // of all frames; FrameStats::leftOut says what one frame does without
   const Scene& scene() const;
   const gpu::MemoryAccount& memory() const;
   std::vector<std::string> notes() const;  // one line each: what a user should know (data that was missing, ...)
