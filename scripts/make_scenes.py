@@ -92,7 +92,7 @@ def without(base, *sections):
 
 
 # Small trees, so that each reason is measured in seconds.
-LEFT_OUT_QUALITY = {"budget": "64MiB", "depth": 12, "detail": 14, "seed": 1}
+LEFT_OUT_QUALITY = {"budget": "64MiB", "depth": 12, "detail": 10, "seed": 1}
 
 
 def left_out(pose_sun):
@@ -102,17 +102,20 @@ def left_out(pose_sun):
     gases = [layer for layer in ATMOSPHERE["layers"] if layer["name"] != "mie"]
     breath = [{**layer, "scattering_per_m": [3e-5 * s for s in layer["scattering_per_m"]],
                "absorption_per_m": [3e-5 * a for a in layer["absorption_per_m"]]} for layer in ATMOSPHERE["layers"]]
+    airless = {**without(earth, "atmosphere"), "planet": PLANET, "quality": {**LEFT_OUT_QUALITY, "detail": 8}}
+    heaps = {"name": "heaps", "base_m": 900.0, "top_m": 2700.0, "cover_gain": 1.2, "cell_m": 8000.0, "octaves": 6, "extinction_per_m": 0.04}
     deck = {"type": "slab", "base_m": 2000.0, "top_m": 8000.0, "extinction_per_m": 0.04}
     scenes = {
         "thin-air": {**clear, "atmosphere": {**ATMOSPHERE, "layers": breath}},
         "smooth-air": {**clear, "atmosphere": {**ATMOSPHERE, "layers": gases}},
         "fixed-exposure": clear,
-        "no-aov": without(clear, "atmosphere"),
+        "no-aov": {**without(clear, "atmosphere"), "planet": PLANET},
         "no-ground": {**earth, "views": {"up": pose(1.8, 60)}},
         "overcast": {**earth, "clouds": {"sources": [deck]}, "views": {"above": pose(9_000, -20)}},
         "night": {**earth, "sun": sun(POSE_SITE, 0, -88.0), "views": {"ground": POSES["ground"]}},
         "looking-away": {**earth, "views": {"away": view(400_000, 55, **POSE_SITE, heading_deg=(POSE_HEADING_DEG + 60) % 360)}},
-        "one-picture": earth,
+        "one-picture": airless,
+        "one-layer": {**airless, "clouds": {"sources": [{"type": "layers", "layers": [heaps]}]}},
         "sun-fixed": earth,
         "nothing-moves": earth,
     }

@@ -10,7 +10,7 @@ namespace welkin {
 const std::vector<std::string>& leftOutReasons() {
   static const std::vector<std::string> names{"no-clouds",    "no-atmosphere", "no-sun",  "thin-air",       "smooth-air",
                                               "no-ground",    "overcast",      "night",   "looking-away",   "fixed-exposure",
-                                              "no-aov",       "one-picture",   "sun-fixed", "nothing-moves"};
+                                              "no-aov",       "one-picture",   "one-layer", "sun-fixed",      "nothing-moves"};
   return names;
 }
 
@@ -23,6 +23,18 @@ Scene sceneFor(const Scene& scene, const std::set<std::string>& forced) {
   if (forced.contains("thin-air") && out.atmosphere && out.atmosphere->model == "auto") out.atmosphere->model = "tables-4d";
   return out;
 }
+
+namespace {
+
+// As LayeredClouds makes them: layers that the scene leaves to the program are many.
+bool oneLayer(const Clouds& clouds) {
+  const CloudSource& source = clouds.sources.front();
+  if (std::holds_alternative<SlabSource>(source)) return true;
+  const auto* layered = std::get_if<LayersSource>(&source);
+  return layered && layered->layers.size() == 1 && !(layered->layers[0].typeLow < layered->layers[0].typeHigh);
+}
+
+}  // namespace
 
 FramePlan planFrame(const Scene& given, const PlanFor& asked) {
   const Scene scene = sceneFor(given, asked.forced);
@@ -74,9 +86,12 @@ FramePlan planFrame(const Scene& given, const PlanFor& asked) {
     if (above && leave("overcast", "ground and clouds below an opaque deck", "the camera is above a deck without a gap") && here) plan.ground = false;
   }
 
+  if (plan.clouds && oneLayer(*scene.clouds)) plan.oneLayer = leave("one-layer", "search among layers, type of the weather", "there is one layer of clouds, in any weather");
+
   plan.history = plan.clouds;
   if (plan.clouds && here)
     plan.history = !leave("one-picture", "reprojection: its programs, history, change and age of pixels", "one picture has none before it");
+  plan.albedoMap = plan.ground && plan.sun && !unseen;
   plan.aux = plan.clouds && (plan.history || plan.air || (plan.ground && plan.sun));
   plan.linear = plan.metered || asked.linear;
   if (!plan.linear && !leave("no-aov", plan.clouds && !plan.aux ? "linear picture; distance and shadow of clouds" : "linear picture", "nobody reads them"))

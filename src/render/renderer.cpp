@@ -91,7 +91,8 @@ struct Renderer::Impl {
   bool away = false;                // the last frame was drawn bare: nothing is streamed since
   std::optional<View> shown;        // of the last frame
   std::uint64_t shownNan = 0;
-  int stillFrames = 0;              // that drew the same from the same tree
+  std::uint64_t stillFrames = 0;    // of the same view and tree
+  int marchedFrames = 0;            // of the same, each a sixteenth of the pixels
   void updateTreeBlock(glm::dvec3 camera_planet);
   void workOnSky();
   void useAir(const Scene& changed);
@@ -102,6 +103,7 @@ struct Renderer::Impl {
   bool bareNow(const View& view, FrameStats& stats);
   void catchUp(const ViewFrame& frame, FrameStats& stats);
   bool asBefore(const View& view) const;
+  bool shownView(const View& view) const;
   void remember(const View& view, const FrameStats& stats, bool treeChanged);
   double shown_ev(const View& view) const;
   FrameStats report(FrameStats stats) const;
@@ -127,7 +129,7 @@ Result<void> Renderer::Impl::create() {
     sky.emplace(std::move(*tables));
   }
   AlbedoPicture albedo;
-  if (plan.ground && plan.sun && !scene.planet.albedoMap.empty()) {
+  if (plan.albedoMap && !scene.planet.albedoMap.empty()) {
     auto picture = loadAlbedoPicture(scene);
     if (!picture) note(picture.error().message + ": the ground is plain");
     else albedo = std::move(*picture);
@@ -155,7 +157,7 @@ Result<void> Renderer::Impl::create() {
   auto residentTree = ResidentTree::create(account, layout, root);
   if (!residentTree) return residentTree.error();
   tree.emplace(std::move(*residentTree));
-  auto brickPasses = BrickPasses::create(account, *source, *tree, plan.sun);
+  auto brickPasses = BrickPasses::create(account, *source, *tree, plan);
   if (!brickPasses) return brickPasses.error();
   bricks.emplace(std::move(*brickPasses));
   auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan);
@@ -326,8 +328,8 @@ bool Renderer::Impl::bareNow(const View& view, FrameStats& stats) {
 // Nothing was streamed for a while, and the camera may be anywhere: what is on its way is applied, and the tree's answer for here is
 // waited for, as after a cut.
 void Renderer::Impl::catchUp(const ViewFrame& frame, FrameStats& stats) {
-  ask(frame, settings.bricksPerFrame, true);
-  while (!asked.empty()) {
+  for (bool here = false; !here || !asked.empty();) {
+    if (asked.empty()) ask(frame, settings.bricksPerFrame, true), here = true;
     FrameEdits edits = streamer->take(asked.front());
     asked.pop_front();
     const std::vector<BrickJob> generate = std::move(edits.generate);
@@ -338,18 +340,22 @@ void Renderer::Impl::catchUp(const ViewFrame& frame, FrameStats& stats) {
   clouds->forget();
 }
 
-// Would this frame be the last one again? Once every pixel was marched in a tree that rests, marching it again changes nothing.
+// Would this frame be the last one again? Once every pixel was marched in a tree that rests, and edits on their way had the time to come,
+// marching it again changes nothing.
 bool Renderer::Impl::asBefore(const View& view) const {
-  const bool same = shown && view.position_m == shown->position_m && view.orientation == shown->orientation && view.fov_deg == shown->fov_deg &&
-                    view.exposure_ev == shown->exposure_ev;
-  return !plan.redraw && !exposure && !nextSky && same && stillFrames >= kRound;
+  return !plan.redraw && !exposure && !nextSky && shownView(view) && stillFrames > kLatency && marchedFrames >= kRound;
+}
+
+bool Renderer::Impl::shownView(const View& view) const {
+  return shown && view.position_m == shown->position_m && view.orientation == shown->orientation && view.fov_deg == shown->fov_deg &&
+         view.exposure_ev == shown->exposure_ev;
 }
 
 void Renderer::Impl::remember(const View& view, const FrameStats& stats, bool treeChanged) {
-  const bool still = shown && view.position_m == shown->position_m && view.orientation == shown->orientation && view.fov_deg == shown->fov_deg &&
-                     view.exposure_ev == shown->exposure_ev && !treeChanged && (!plan.clouds || last.stats.settled || away);
+  const bool still = shownView(view) && !treeChanged && (!plan.clouds || last.stats.settled || away);
   const bool all = !plan.clouds || away || stats.counters.marchedPixels == std::uint64_t(settings.width) * std::uint64_t(settings.height);
-  stillFrames = still ? (all ? kRound : stillFrames + 1) : 0;
+  stillFrames = still ? stillFrames + 1 : 0;
+  marchedFrames = all ? kRound : still ? marchedFrames + 1 : 0;
   shown = view;
   shownNan = stats.counters.nanPixels;
 }

@@ -15,6 +15,8 @@ constexpr double kSpace_m = 250'000;  // from this altitude on (kLimbFull_m in c
 // A point gets light scattered n times while the sun is at most (2 n - 1) dips of the shell's horizon below its own. Five leave out
 // what was scattered at least four times, always through the shell's limb: under 1e-6 of the sun for any air.
 constexpr double kTwilightDips = 5;
+// Sunlight times exposure up to which 1e-6 of it shows as black: 8 (kBaseExposure) times 12.92 (the slope of sRGB) times that is 0.4 / 255.
+constexpr double kBrightest = 16;
 
 double angle(const glm::dvec3& a, const glm::dvec3& b) { return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0)); }
 
@@ -49,8 +51,10 @@ std::optional<LeftOut> nothingSeen(const Scene& scene, const PlanFor& asked) {
   const char* what = "streaming, light, sky tables of the view, march: the ground, the sun and black are drawn";
   if (!sight.shell && !asked.forced.contains("looking-away")) return LeftOut{what, "the camera is above air and clouds and looks past them", "looking-away"};
   // A meter would turn up what little light there is, and who reads numbers may look for it.
-  const bool fixed = asked.view->exposure_ev || scene.output.exposure_ev;
-  if (!sight.lit && fixed && !asked.linear && !asked.forced.contains("night"))
+  const auto ev = asked.view->exposure_ev ? asked.view->exposure_ev : scene.output.exposure_ev;
+  const Spectrum3 light = scene.sun ? scene.sun->irradiance : Spectrum3{};
+  const bool dark = ev && *std::max_element(light.begin(), light.end()) * std::exp2(*ev) <= kBrightest;
+  if (!sight.lit && dark && !asked.linear && !asked.forced.contains("night"))
     return LeftOut{what, "the sun is so far below all that is seen that its light, scattered, is black", "night"};
   return {};
 }

@@ -38,7 +38,8 @@ inline std::vector<ShaderVariant> shaderTable() {
   std::vector<ShaderVariant> table{{"pass/maps/build.comp", {}}, {"pass/reproject/reproject.comp", {}}};
   for (const char* textures : {"1", "2"}) {
     for (const char* source : {"lib/clouds/layers.glsl", "lib/clouds/sphere.glsl"})
-      table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}}});
+      for (const char* one : {"0", "1"})
+        table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}, {"ONE_LAYER", one}}});
     table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
     const auto march = [&](const char* air, const char* pixels, const char* ground, const char* aux, const char* history) {
       table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"OPT_GROUND", ground}, {"OPT_AUX", aux},

@@ -32,8 +32,10 @@ struct FramePlan {
   bool metered = false;  // histogram, adaptation, tone mapping in a pass of its own
   bool history = false;  // reprojection
   bool ground = true;    // a ray may meet it
+  bool albedoMap = true; // and its picture is seen
   bool linear = true;    // the picture is kept before exposure, too
   bool aux = true;       // somebody reads how far away clouds are, and their shadow on the ground
+  bool oneLayer = false;       // of clouds, whatever the type of the weather
   bool everyHarmonic = false;  // tables of diffuse light as for peaked layers, whatever the layers are
   bool sunMayMove = false;     // light as it comes, and what makes it is kept
   bool redraw = true;          // a frame equal to the last one is drawn all the same
