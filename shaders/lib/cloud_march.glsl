@@ -1,5 +1,5 @@
-// The march of one view ray through the clouds: highest empty ancestors are jumped over, of a brick only the altitudes that its data
-// fills are integrated, in segments that are analytic for linear density.
+// The march of one view ray through the clouds: highest empty ancestors are jumped over (SKIP_EMPTY), bricks are added up by the rule
+// INTEGRATOR in segments by the rule STEP_RULE; the last one of a ray ends at the ground or where the clouds do.
 #include "welkin/shared/camera.glsl.h"
 #include "welkin/shared/cloud_light.glsl.h"
 #include "welkin/shared/integrators.glsl.h"
@@ -50,6 +50,54 @@ Segment cloudSegment(dvec3 position, double altitude, double r, double radius, v
   return Segment(near, far);
 }
 
+// The part of one brick that a ray crosses, with its parent where that fades in.
+struct BrickPath {
+  uint brick, parent;
+  float parentWeight;
+  vec3 local, parentLocal;  // where the ray enters, in cells
+  vec3 slope;               // cells a metre; half as many in the parent
+};
+
+// Density fraction and encoded sun depth, a distance s into the brick; light belongs to the density that it was stored with.
+vec2 sampleField(BrickPath path, float s) {
+  vec2 data = vec2(0.0);
+  uint from = path.brick;
+  float share = 1.0 - path.parentWeight;
+  vec3 at = path.local + path.slope * s;
+  bool coarse = false;
+  do {  // a second turn for the parent
+    vec2 found = sampleBrick(from, at);
+    float own = found.x * share, both = data.x + own;
+    data = vec2(both, both > 0.0 ? mix(data.y, found.y, own / both) : found.y);
+    coarse = !coarse && path.parentWeight > 0.0;
+    from = path.parent;
+    at = path.parentLocal + path.slope * (0.5 * s);
+    share = path.parentWeight;
+  } while (coarse);
+  return data;
+}
+
+// What a ray has gathered: in-scatter, what of it the open sky lights, what of it there is, the same times distance.
+struct Gathered { float sun, open, all, weighted; };
+
+// A sample as its rule weighs it: extinction [1/m], source of sunlight and share of the sky's.
+struct Node { float extinction_per_m; float sun, sky; };
+
+Node nodeAt(BrickPath path, float s, CloudPhases phases) {
+  vec2 data = sampleField(path, s);
+  return Node(data.x * tree.maxExtinction_per_m, sunSource(phases, data.y), skyShare(data.y));
+}
+
+void gather(inout Gathered sum, float gain, Node node, float distance_m) {
+  sum.sun += gain * node.sun;
+  sum.open += gain * node.sky;
+  sum.all += gain;
+  sum.weighted += gain * distance_m;
+}
+
+const float kErrorShare = 0.03;  // kAdaptive: what a segment may err in opacity, times step cubed: its error falls with the cube of its length
+const float kMostHalvings = 64.0;
+
 CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, vec3 dir, float ground_m, CloudPhases phases) {
   CloudRay ray = CloudRay(0.0, 0.0, 0.0, 1.0, ground_m >= 0.0 ? ground_m : kSkyDistance_m, 0u, 0u, false);
   Segment segment = cloudSegment(position, altitude, r, radius, dir, ground_m);
@@ -57,32 +105,34 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   Walk walk = startWalk(position + dvec3(dir) * double(segment.near), dir);
   float t = 0.0, end = segment.far - segment.near;
   float cellsAlong = 7.0 * max(abs(walk.dirSteps.x), max(abs(walk.dirSteps.y), abs(walk.dirSteps.z)));  // times 1 / size: cells a metre
-  float weighted = 0.0, open = 0.0;
-  float lastLight = 0.0;  // sun depth at the last sample
+  float entryHalf_m = 0.5 * max(segment.near, tree.sampleNear_m) / tree.detail;
+  Gathered sum = Gathered(0.0, 0.0, 0.0, 0.0);
+  Node before = Node(0.0, sunSource(phases, 0.0), 1.0);  // the last midpoint; at first: lit through nothing
   int visit = 0;
   // Every loop ends with its condition, and both sides of an `if` are cheap: software GL runs a loop's body once however it begins,
   // and both sides of every branch.
   do {
     // On to the next brick that is not empty.
+    BrickPath path;
     vec3 steps;
-    uint level, brick, parent, bounding;
-    float next, parentWeight;
+    uint level, bounding;
+    float next, away;
     bool empty;
     do {
-      float away = segment.near + t;
+      away = segment.near + t;
       uvec3 p = walkTo(walk, t);
       DetailLevel detail = detailAt(tree.detail * tree.rootSize_m / max(away, tree.sampleNear_m), tree.depth);
       uint mapLevel = mapLevelAt(tree.rootSize_m / max(away, 1e-3), tree.mapBase, tree.depth);
       uint word = 0u;
       uint want = detail.level;
       bool again = false;
-      parent = kZeroBrick;
-      parentWeight = 0.0;
+      path.parent = kZeroBrick;
+      path.parentWeight = 0.0;
       do {  // a second turn for the parent where it fades in
         uint found = lookUp(p, want, mapLevel);
         ray.cells++;
-        parent = again ? wordBrick(found) : parent;
-        parentWeight = again ? detail.parentWeight : parentWeight;
+        path.parent = again ? wordBrick(found) : path.parent;
+        path.parentWeight = again ? detail.parentWeight : path.parentWeight;
         word = again ? word : found;
         bounding = found;
         again = !again && detail.parentWeight > 0.0 && want > 0u && wordLevel(found) == want;
@@ -90,65 +140,97 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       } while (again);
       empty = wordEmpty(bounding);
       ray.hole = ray.hole || (!wordEmpty(word) && wordLevel(word) < detail.level);
-      brick = wordBrick(word);
+      path.brick = wordBrick(word);
       level = empty ? wordLevel(bounding) : wordLevel(word);
       steps = nodeSteps(p, level);
       next = min(t + nodeExit(steps, levelSteps(level), walk.ahead, walk.metrePerStep) + pastExit(away), end);
+#if SKIP_EMPTY
       t = empty ? next : t;
+#else
+      empty = false;
+#endif
       visit++;
     } while (empty && t < end && visit < kMaxCells);
     // An empty brick left at the end of the ray is the zero brick, and adds nothing.
     float span = next - t;
     float perStep = levelStepsInverse(level);
-    vec3 local = steps * (7.0 * perStep);
-    vec3 slope = walk.dirSteps * (7.0 * perStep);
+    path.local = steps * (7.0 * perStep);
+    path.slope = walk.dirSteps * (7.0 * perStep);
     // inside the parent: half the cells, from 0 or 3.5
-    vec3 parentLocal = 0.5 * local + 3.5 * vec3(walkOctant(walk, t, level));
-    float bound = maxCodeValue(wordMaxCode(bounding)) * tree.maxExtinction_per_m * span;
-    float halves = span * cellsAlong * perStep * (2.0 / 7.0);
-    float finer = mix(kLeastCount, 1.0, ray.transmittance) / tree.step;
-    float count = max(ceil(min(halves, bound / kDepthShare) * finer), 1.0);
-    float dt = span / count;
-    float density = tree.maxExtinction_per_m;
-    float i = 0.5;
+    path.parentLocal = 0.5 * path.local + 3.5 * vec3(walkOctant(walk, t, level));
+    uint perSample = path.parentWeight > 0.0 ? 2u : 1u;
+    StepPlace place = StepPlace(span, span * cellsAlong * perStep * (2.0 / 7.0), maxCodeValue(wordMaxCode(bounding)) * tree.maxExtinction_per_m * span,
+                                ray.transmittance, t, end, entryHalf_m, 0.5 * max(away, tree.sampleNear_m) / tree.pixelDetail);
+#if INTEGRATOR == 4 || INTEGRATOR == 5 || INTEGRATOR == 0
+    // one sample a segment
+    float count = segmentCount(STEP_RULE, tree.step, place), dt = span / count;
+    float i = integratorNode(INTEGRATOR, 0u);
     do {
       float s = i * dt;
-      vec2 data = vec2(0.0);
-      vec3 at = local + slope * s;
-      uint from = brick;
-      float share = 1.0 - parentWeight;
-      bool coarse = false;
-      do {  // a second turn for the parent; light belongs to the density it was stored with
-        vec2 found = sampleBrick(from, at);
-        float own = found.x * share, both = data.x + own;
-        data = vec2(both, both > 0.0 ? mix(data.y, found.y, own / both) : found.y);
-        ray.samples++;
-        coarse = !coarse && parentWeight > 0.0;
-        from = parent;
-        at = parentLocal + slope * (0.5 * s);
-        share = parentWeight;
-      } while (coarse);
-      float thickness = data.x * density * dt;
-      float kept = ray.transmittance * exp2(thickness * -1.44269504);
-      float gain = ray.transmittance - kept;
-      // at the front of the segment the light is between the last midpoint's and this one's
-      float encoded = mix(0.5 * (lastLight + data.y), data.y, 2.0 * emissionDepth(thickness));
-      lastLight = data.y;
-      ray.sun += gain * sunSource(phases, encoded);
-      open += gain * skyShare(encoded);
-      weighted += gain * (t + s);
-      ray.transmittance = kept;
+      Node node = nodeAt(path, s, phases);
+      ray.samples += perSample;
+      SegmentGains g = segmentGains(INTEGRATOR, vec4(node.extinction_per_m, 0.0, 0.0, 0.0), dt);
+      gather(sum, ray.transmittance * g.gain.x, node, t + s);
+#if INTEGRATOR == 5
+      gather(sum, ray.transmittance * g.gain.y, before, t + s);
+      before = node;
+#endif
+      ray.transmittance *= g.transmittance;
       i += 1.0;
     } while (i < count && ray.transmittance >= kOpaqueTransmittance);
+#else
+    // Samples at both ends: the front's is the back's of the segment before.
+#if INTEGRATOR == 6
+    float dt = span / segmentCount(STEP_RULE, 1.0, place), least = span / kMostHalvings;
+    float allowed = kErrorShare * tree.step * tree.step * tree.step;
+#else
+    float dt = span / segmentCount(STEP_RULE, tree.step, place);
+#endif
+    Node front = nodeAt(path, 0.0, phases);
+    ray.samples += perSample;
+    float s = 0.0;
+    bool more;
+    do {
+      float length_m = min(dt, span - s);
+      const uint last = integratorNodes(INTEGRATOR) - 1u;
+      Node nodes[4];
+      nodes[0] = front;
+      for (uint i = 1u; i < 4u; ++i) {
+        if (i <= last) nodes[i] = nodeAt(path, s + integratorNode(INTEGRATOR, i) * length_m, phases);
+        else nodes[i] = Node(0.0, 0.0, 0.0);
+      }
+      ray.samples += last * perSample;
+      SegmentGains g = segmentGains(INTEGRATOR, vec4(nodes[0].extinction_per_m, nodes[1].extinction_per_m, nodes[2].extinction_per_m, nodes[3].extinction_per_m), length_m);
+#if INTEGRATOR == 6
+      vec4 difference = g.gain - g.coarse;
+      float error = ray.transmittance * max(abs(difference.x + difference.y + difference.z),
+                                            abs(difference.x * nodes[0].sky + difference.y * nodes[1].sky + difference.z * nodes[2].sky));
+      bool taken = error <= allowed || length_m <= least;
+      dt = max(length_m * clamp(0.9 * pow(allowed / max(error, 1e-12), 0.33333333), 0.25, 4.0), least);
+#else
+      const bool taken = true;
+#endif
+      float weight = taken ? ray.transmittance : 0.0;
+      for (uint i = 0u; i < 4u; ++i) {
+        if (i <= last) gather(sum, weight * g.gain[i], nodes[i], t + s + integratorNode(INTEGRATOR, i) * length_m);
+      }
+      ray.transmittance *= taken ? g.transmittance : 1.0;
+      front.extinction_per_m = taken ? nodes[last].extinction_per_m : front.extinction_per_m;
+      front.sun = taken ? nodes[last].sun : front.sun;
+      front.sky = taken ? nodes[last].sky : front.sky;
+      s += taken ? length_m : 0.0;
+      more = span - s > 1e-6 * span;
+    } while (more && ray.transmittance >= kOpaqueTransmittance);
+#endif
     t = next;
   } while (t < end && ray.transmittance >= kOpaqueTransmittance && visit < kMaxCells);
   float opacity = 1.0 - ray.transmittance;
-  if (opacity > 0.0) ray.distance_m = segment.near + weighted / opacity;
+  if (sum.all > 0.0) ray.distance_m = segment.near + sum.weighted / sum.all;
   // what little light passes an opaque cloud is given to what was seen
   float rest = ray.transmittance < kOpaqueTransmittance ? 1.0 / opacity : 1.0;
-  ray.sun *= rest;
-  ray.sky = skySource(open) * rest;
-  ray.ground = groundSource(opacity, open) * rest;
+  ray.sun = sum.sun * rest;
+  ray.sky = skySource(sum.open) * rest;
+  ray.ground = groundSource(sum.all, sum.open) * rest;
   if (ray.transmittance < kOpaqueTransmittance) ray.transmittance = 0.0;
   return ray;
 }

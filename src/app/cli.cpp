@@ -62,6 +62,7 @@ void addQualityOptions(CLI::App& command, CommonOptions& o) {
                         [&o](Integrator v) { o.integrator = v; });
   addParsed<StepRule>(command, "--step-rule", "what a march step is measured in: " + namesText(kStepRuleNames), parseName<StepRule>(kStepRuleNames),
                       [&o](StepRule v) { o.stepRule = v; });
+  command.add_flag("--march-empty", o.marchEmpty, "march empty nodes like others, for comparisons");
   addParsed<double>(
       command, "--detail", "nodes a radian wanted; 0: as fine as the budget allows",
       [](const std::string& t) { return parseNumber(t, 0, 1e6); }, [&o](double v) { o.detail = v; });

@@ -160,7 +160,7 @@ Result<void> Renderer::Impl::create() {
   auto brickPasses = BrickPasses::create(account, *source, *tree, plan);
   if (!brickPasses) return brickPasses.error();
   bricks.emplace(std::move(*brickPasses));
-  auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan);
+  auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan, scene.quality);
   if (!cloudPasses) return cloudPasses.error();
   clouds.emplace(std::move(*cloudPasses));
   StreamSettings stream;
@@ -180,6 +180,8 @@ void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
   block.sunDir = glm::vec4(glm::vec3(sun), plan.sun ? 1.0f : 0.0f);
   block.mapCentre = glm::vec4(glm::vec3(camera_planet), 0.0f);
   block.detail = std::min(last.sampleDetail, greatestDetail);
+  if (scene.quality.detail > 0) block.detail = std::min(block.detail, static_cast<float>(scene.quality.detail));
+  block.pixelDetail = greatestDetail;
   block.cloudTop_m = static_cast<float>(source->top_m());
   block.maxExtinction_per_m = source->maxExtinction();
   block.bandBase_m = last.bandBase_m;
@@ -473,7 +475,13 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
 }
 
 Result<void> Renderer::setAir(const Scene& changed, AirChange how) { return impl_->setAir(changed, how); }
-void Renderer::setStep(double step) { impl_->scene.quality.step = step, impl_->stillFrames = 0; }
+Result<void> Renderer::setMarch(const Quality& quality) {
+  auto& now = impl_->scene.quality;
+  impl_->stillFrames = 0;
+  now.integrator = quality.integrator, now.stepRule = quality.stepRule, now.skipEmpty = quality.skipEmpty;
+  now.step = quality.step, now.detail = quality.detail;
+  return impl_->clouds ? impl_->clouds->use(now) : Result<void>{};
+}
 
 void Renderer::preview(const View& view) {
   Impl& r = *impl_;

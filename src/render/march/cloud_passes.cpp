@@ -37,7 +37,8 @@ ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, 
   return f;
 }
 
-Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan) {
+Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan,
+                                        const Quality& quality) {
   CloudPasses passes;
   passes.width_ = width;
   passes.height_ = height;
@@ -57,16 +58,10 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
       if (auto r = target(passes.age_[i], {.format = GL_R8UI, .width = width, .height = height, .filter = GL_NEAREST}); !r) return r.error();
   }
   const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
-  gpu::Defines defines = tree.defines();
-  defines.insert(defines.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)}, {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
-  gpu::Program* programs[] = {&passes.marchAll_, &passes.marchSixteenth_, &passes.marchList_};
-  for (int i = 0; i < (plan.history ? 3 : 1); ++i) {
-    gpu::Defines variant = defines;
-    variant.emplace_back("PIXELS", std::to_string(i));
-    auto program = gpu::Program::compute("pass/march/march.comp", variant);
-    if (!program) return program.error();
-    *programs[i] = std::move(*program);
-  }
+  passes.defines_ = tree.defines();
+  passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)},
+                                                 {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
+  if (auto used = passes.use(quality); !used) return used.error();
   if (!plan.history) return passes;
   if (auto r = target(passes.change_, {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4}); !r) return r.error();
   auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width) * std::size_t(height) * 4, GL_DYNAMIC_STORAGE_BIT, true);
@@ -76,6 +71,30 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
   if (!reproject) return reproject.error();
   passes.reproject_ = std::move(*reproject);
   return passes;
+}
+
+Result<void> CloudPasses::use(const Quality& quality) {
+  const gpu::Defines rules{{"INTEGRATOR", std::to_string(int(quality.integrator))},
+                           {"STEP_RULE", std::to_string(int(quality.stepRule)) + "u"},
+                           {"SKIP_EMPTY", quality.skipEmpty ? "1" : "0"}};
+  std::string key;
+  for (const auto& [name, value] : rules) key += value + " ";
+  if (const auto found = marches_.find(key); found != marches_.end()) {
+    march_ = &found->second;
+    return {};
+  }
+  Programs made;
+  gpu::Program* programs[] = {&made.all, &made.sixteenth, &made.list};
+  for (int i = 0; i < (history_ ? 3 : 1); ++i) {
+    gpu::Defines variant = defines_;
+    variant.insert(variant.end(), rules.begin(), rules.end());
+    variant.emplace_back("PIXELS", std::to_string(i));
+    auto program = gpu::Program::compute("pass/march/march.comp", variant);
+    if (!program) return program.error();
+    *programs[i] = std::move(*program);
+  }
+  march_ = &marches_.emplace(key, std::move(made)).first->second;
+  return {};
 }
 
 void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int target) const {
@@ -89,7 +108,7 @@ void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int targ
 void CloudPasses::setLight(const Scene& scene) const {
   const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
   const float albedo = float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3;
-  for (const gpu::Program* p : {&marchAll_, &marchSixteenth_, &marchList_}) {
+  for (const gpu::Program* p : {&march_->all, &march_->sixteenth, &march_->list}) {
     if (!p->valid()) continue;
     p->set("u_sunIrradiance", irradiance);
     p->set("u_groundAlbedo", albedo);
@@ -111,8 +130,8 @@ void CloudPasses::show(int target) const {
 void CloudPasses::preview(const Scene& scene) {
   setLight(scene);
   const int spare = history_ ? 1 - current_ : 0;  // the next run() writes every pixel of it
-  march(marchAll_, {0, 0}, spare);
-  marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
+  march(march_->all, {0, 0}, spare);
+  march_->all.dispatch(groups(width_, 8), groups(height_, 8));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   show(spare);
 }
@@ -123,8 +142,8 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
   current_ = history_ ? 1 - current_ : 0;
   if (mode == FrameMode::Full || !haveHistory_ || !history_) {
     timer.begin("march");
-    march(marchAll_, {0, 0}, current_);
-    marchAll_.dispatch(groups(width_, 8), groups(height_, 8));
+    march(march_->all, {0, 0}, current_);
+    march_->all.dispatch(groups(width_, 8), groups(height_, 8));
     timer.end();
   } else {
     const glm::ivec2 offset{kOrder[phase_ % 16][0], kOrder[phase_ % 16][1]};
@@ -132,10 +151,10 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     light_[old].bind(WK_CLOUD_LIGHT_UNIT);
     aux_[old].bind(WK_CLOUD_AUX_UNIT);
     timer.begin("march");
-    setMotion(marchSixteenth_, view);
+    setMotion(march_->sixteenth, view);
     change_.bindImage(2, GL_WRITE_ONLY);
-    march(marchSixteenth_, offset, current_);
-    marchSixteenth_.dispatch(groups(width_, 32), groups(height_, 32));
+    march(march_->sixteenth, offset, current_);
+    march_->sixteenth.dispatch(groups(width_, 32), groups(height_, 32));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     timer.end();
     timer.begin("reproject");
@@ -154,8 +173,8 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     timer.end();
     timer.begin("march");
-    march(marchList_, offset, current_);
-    marchList_.use();
+    march(march_->list, offset, current_);
+    march_->list.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pixels_.id());
     glDispatchComputeIndirect(0);
     timer.end();

@@ -1,5 +1,8 @@
 #pragma once
 // The march and the reprojection: clouds of every pixel, of which one in 16 is marched a frame and the rest is moved from the last.
+#include <map>
+#include <string>
+
 #include "render/tree/resident_tree.h"
 #include "welkin/gpu/timer.h"
 #include "welkin/render/renderer.h"
@@ -17,7 +20,9 @@ ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, 
 
 class CloudPasses {
  public:
-  static Result<CloudPasses> create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan);
+  static Result<CloudPasses> create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan,
+                                    const Quality& quality);
+  Result<void> use(const Quality& quality);  // its integrator, step rule and skipEmpty; compiled once each
   // Expects tree, camera, counters and sky bound. Leaves the new clouds bound at WK_CLOUD_LIGHT_UNIT and (if read) WK_CLOUD_AUX_UNIT.
   void run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer);
   // Marches every pixel into the spare target, which is bound as the new clouds; history stays as it is.
@@ -36,7 +41,13 @@ class CloudPasses {
   bool history_ = true;  // else every frame marches all pixels, into the one target there is
   gpu::Texture light_[2], aux_[2], age_[2], change_;
   gpu::Buffer pixels_;
-  gpu::Program marchAll_, marchSixteenth_, marchList_, reproject_;
+  struct Programs {
+    gpu::Program all, sixteenth, list;
+  };
+  gpu::Defines defines_;              // of all marches
+  std::map<std::string, Programs> marches_;  // by what their quality defines
+  const Programs* march_ = nullptr;   // the one in use
+  gpu::Program reproject_;
 };
 
 }  // namespace welkin

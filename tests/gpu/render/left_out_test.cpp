@@ -211,7 +211,9 @@ TEST_F(LeftOutFlight, WhatMovesIsDrawn) {
   EXPECT_EQ(renderer->frame(darker).leftOut, "") << "another exposure";
   for (int i = 0; i < 60; ++i) stats = renderer->frame(here);
   EXPECT_EQ(stats.leftOut, "nothing-moves");
-  renderer->setStep(0.1);
+  Quality finer = scene.quality;
+  finer.step = 0.1;
+  ASSERT_TRUE(renderer->setMarch(finer).ok());
   EXPECT_EQ(renderer->frame(here).leftOut, "") << "another step";
 }
 

@@ -41,16 +41,24 @@ inline std::vector<ShaderVariant> shaderTable() {
       for (const char* one : {"0", "1"})
         table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}, {"ONE_LAYER", one}}});
     table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
-    const auto march = [&](const char* air, const char* pixels, const char* ground, const char* aux, const char* history) {
-      table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"OPT_GROUND", ground}, {"OPT_AUX", aux},
-                                                 {"OPT_HISTORY", history}, {"PIXELS", pixels}}});
+    struct March {
+      const char *air = "1", *ground = "1", *aux = "1", *history = "1";
+      int pixels = 0, integrator = 5, rule = 2;
+      const char* skip = "1";
     };
-    for (const char* air : {"0", "1"}) {
-      for (const char* pixels : {"0", "1", "2"})
-        for (const char* ground : {"0", "1"}) march(air, pixels, ground, "1", "1");
-      for (const char* ground : {"0", "1"}) march(air, "0", ground, "1", "0");
-    }
-    march("0", "0", "0", "0", "0");
+    const auto march = [&](const March& m) {
+      table.push_back({"pass/march/march.comp",
+                       {{"BRICK_TEXTURES", textures}, {"OPT_AIR", m.air}, {"OPT_GROUND", m.ground}, {"OPT_AUX", m.aux}, {"OPT_HISTORY", m.history},
+                        {"INTEGRATOR", std::to_string(m.integrator)}, {"STEP_RULE", std::to_string(m.rule) + "u"}, {"SKIP_EMPTY", m.skip},
+                        {"PIXELS", std::to_string(m.pixels)}}});
+    };
+    for (const char* air : {"0", "1"})
+      for (const char* ground : {"0", "1"}) {
+        for (int pixels = 0; pixels < 3; ++pixels) march({.air = air, .ground = ground, .pixels = pixels});
+        march({.air = air, .ground = ground, .history = "0"});
+      }
+    march({.air = "0", .ground = "0", .aux = "0", .history = "0"});
+    for (int integrator = 0; integrator < 7; ++integrator) march({.integrator = integrator, .rule = integrator % 5, .skip = integrator % 2 ? "0" : "1"});
   }
   for (const auto& [layers, peak] : {std::pair{1, -1}, {3, 1}, {6, 5}}) {
     const auto sky = [&, layers = layers, peak = peak](const char* pass, gpu::Defines more = {}) {

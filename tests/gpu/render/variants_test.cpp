@@ -40,8 +40,8 @@ TEST_F(Shaders, MistakesAreTold) {
   ASSERT_FALSE(missing.ok());
   EXPECT_NE(missing.error().message.find("lib/clouds/none.glsl"), std::string::npos) << missing.error().message;
   EXPECT_NE(missing.error().message.find("generate.comp:"), std::string::npos) << missing.error().message;
-  EXPECT_FALSE(gpu::Program::compute("pass/march/march.comp", {{"BRICK_TEXTURES", "1"}, {"OPT_AIR", "1"}}).ok() &&
-               gpu::Program::compute("pass/march/march.comp", {{"BRICK_TEXTURES", "no number"}, {"OPT_AIR", "1"}, {"PIXELS", "0"}}).ok());
+  EXPECT_FALSE(gpu::Program::compute("pass/march/march.comp", {{"BRICK_TEXTURES", "1"}, {"OPT_AIR", "1"}, {"INTEGRATOR", "5"}, {"STEP_RULE", "2u"}, {"SKIP_EMPTY", "1"}}).ok() &&
+               gpu::Program::compute("pass/march/march.comp", {{"BRICK_TEXTURES", "no number"}, {"OPT_AIR", "1"}, {"INTEGRATOR", "5"}, {"STEP_RULE", "2u"}, {"SKIP_EMPTY", "1"}, {"PIXELS", "0"}}).ok());
 }
 
 }  // namespace

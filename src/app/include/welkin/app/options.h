@@ -50,6 +50,7 @@ struct CommonOptions {
   std::optional<int> depth;
   std::optional<Integrator> integrator;
   std::optional<StepRule> stepRule;
+  bool marchEmpty = false;
   std::optional<double> step, detail;
   std::optional<std::uint32_t> seed;
   std::optional<Exposure> exposure;  // in place of the scene's and of every view's

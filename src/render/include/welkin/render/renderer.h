@@ -80,7 +80,9 @@ class Renderer {
   // out of range, memory, air where there was none or none where there was some, or (Keep) light that does not fit.
   enum class AirChange { Recompute, Keep };
   Result<void> setAir(const Scene& changed, AirChange how);
-  void setStep(double step);  // Quality::step from the next picture on; the tree stays as it is
+  // Integrator, step rule, step, skipEmpty and detail (here: sampled at most) from the next picture on; the tree stays as it is. Fails, and
+  // changes nothing that is drawn, when a shader does not compile.
+  Result<void> setMarch(const Quality& quality);
   // Draws this view from the tree as it is now, every pixel marched; no edit is applied; history, frame count and metered exposure
   // stay. For comparing: image() and radiance() then return this picture.
   void preview(const View& view);

@@ -34,7 +34,7 @@ struct TreeBlock {
   float maxExtinction_per_m;
   float bandBase_m, bandTop_m;
   float planetRadius_m;
-  float step;               // length of a march segment in halves of the node's size; three quarters of it as optical depth where that asks for fewer
+  float step;               // length of a march segment, in units of its rule (step_rules.glsl.h)
   uint depth;
   uint mapBase;             // coarsest octree map's level: its 64^3 cells or fewer cover the root
   float atlasDepthInverse;  // 1 / texels along z of a brick texture
@@ -43,6 +43,7 @@ struct TreeBlock {
   float shadowTop_m;        // where shadow rays end: the source's top, or the band's if higher
   float sampleNear_m;       // nearer than this the level of detail is that of this distance: finer data may not be there yet
   uint bricksPerTexture;
+  float pixelDetail;        // K at which a node's voxels are as small as a pixel shows
 };
 
 // One buffer of node words: the octree maps, coarsest first, each 64^3 cells with x fastest and addressed modulo 64; then the nodes.
