@@ -102,8 +102,8 @@ def left_out(pose_sun):
     gases = [layer for layer in ATMOSPHERE["layers"] if layer["name"] != "mie"]
     breath = [{**layer, "scattering_per_m": [3e-5 * s for s in layer["scattering_per_m"]],
                "absorption_per_m": [3e-5 * a for a in layer["absorption_per_m"]]} for layer in ATMOSPHERE["layers"]]
-    airless = {**without(earth, "atmosphere"), "planet": PLANET, "quality": {**LEFT_OUT_QUALITY, "detail": 8}}
-    heaps = {"name": "heaps", "base_m": 900.0, "top_m": 2700.0, "cover_gain": 1.2, "cell_m": 8000.0, "octaves": 6, "extinction_per_m": 0.04}
+    haze = {"type": "slab", "base_m": 1000.0, "top_m": 4000.0, "extinction_per_m": 0.0002}
+    hazy = {**without(earth, "atmosphere"), "planet": PLANET, "clouds": {"sources": [haze]}}
     deck = {"type": "slab", "base_m": 2000.0, "top_m": 8000.0, "extinction_per_m": 0.04}
     scenes = {
         "thin-air": {**clear, "atmosphere": {**ATMOSPHERE, "layers": breath}},
@@ -114,8 +114,8 @@ def left_out(pose_sun):
         "overcast": {**earth, "clouds": {"sources": [deck]}, "views": {"above": pose(9_000, -20)}},
         "night": {**earth, "sun": sun(POSE_SITE, 0, -88.0), "views": {"ground": POSES["ground"]}},
         "looking-away": {**earth, "views": {"away": view(400_000, 55, **POSE_SITE, heading_deg=(POSE_HEADING_DEG + 60) % 360)}},
-        "one-picture": airless,
-        "one-layer": {**airless, "clouds": {"sources": [{"type": "layers", "layers": [heaps]}]}},
+        "one-picture": {**hazy, "quality": {**LEFT_OUT_QUALITY, "depth": 10, "detail": 5}},
+        "one-layer": {**hazy, "quality": {**LEFT_OUT_QUALITY, "detail": 14}},
         "sun-fixed": earth,
         "nothing-moves": earth,
     }
@@ -130,7 +130,7 @@ def files():
     pose_sun = sun(POSE_SITE, (POSE_HEADING_DEG + 60) % 360, 48.0)
     for name, where in POSES.items():
         out[f"benchmarks/poses/{name}.json"] = {**scene(f"pose {name}", "../../data", POSE_QUALITY, {name: where}), "sun": pose_sun}
-    everything = {**scene("nothing left out", "../../data", POSE_QUALITY, {"orbit": POSES["orbit"]}), "sun": pose_sun,
+    everything = {**scene("nothing left out", "../../data", LEFT_OUT_QUALITY, {"orbit": POSES["orbit"]}), "sun": pose_sun,
                   "output": {"exposure_ev": "auto"}}
     out["benchmarks/left-out/nothing.json"] = everything
     for section in ["clouds", "atmosphere", "sun"]:

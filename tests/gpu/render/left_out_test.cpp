@@ -69,7 +69,12 @@ TEST(LeftOutReasons, DoNotHoldInDoubt) {
   std::get<SlabSource>(deck.clouds->sources[0]).extinction_per_m = 0.003;  // 18 straight down
   EXPECT_FALSE(holds(planFrame(deck, picture(viewOf(deck))), "overcast"));
   Scene layered = sceneOf("one-layer");
-  std::get<LayersSource>(layered.clouds->sources[0]).layers[0].typeHigh = 0.5;
+  LayersSource layers;
+  layers.layers = {CloudLayer{}};
+  layered.clouds->sources = {layers};
+  EXPECT_TRUE(planFrame(layered).oneLayer);
+  layers.layers[0].typeHigh = 0.5;
+  layered.clouds->sources = {layers};
   EXPECT_FALSE(planFrame(layered).oneLayer) << "the weather's type matters";
 }
 
