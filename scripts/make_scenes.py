@@ -145,7 +145,7 @@ def files():
            "benchmarks/orbit-to-ground.scene.json": scene("orbit to ground", "../data",
                                                           {"budget": "256MiB", "depth": 16, "detail": 36, "seed": 1}, {})}
     # Depth 24, and more nodes a radian than 90 lines show: only the pixels limit the detail.
-    out["benchmarks/error/views.json"] = {**scene("tolerance", "../../data", {"budget": "512MiB", "depth": 24, "detail": 24, "seed": 1}, error_views()),
+    out["benchmarks/error/views.json"] = {**scene("tolerance", "../../data", {"budget": "512MiB", "depth": 24, "detail": 36, "seed": 1}, error_views()),
                                           "sun": sun({"latitude_deg": -20.0, "longitude_deg": -25.0}, 0.0, 90.0)}
     pose_sun = sun(POSE_SITE, (POSE_HEADING_DEG + 60) % 360, 48.0)
     for name, where in POSES.items():
