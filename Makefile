@@ -4,10 +4,11 @@ OUT ?= out
 FLY ?= # further options of `welkin fly`, for instance FLY="--size 640x360"
 CHECK ?= --json benchmarks/results/check-orbit.json # further options of scripts/check_orbit.py, for instance CHECK="--only speed --quick"
 SKY ?= --json benchmarks/results/check-sky.json # further options of scripts/check_sky.py, for instance SKY="--only accuracy --quick"
+ERROR ?= --json benchmarks/results/check-error.json # further options of scripts/check_error.py, for instance ERROR="--only near"
 TRUTH ?= # further options of scripts/make_truth.py, for instance TRUTH="--only space --force"
 JOBS ?= $(shell nproc)
 
-.PHONY: all help build fly test data setup extras check-orbit check-sky truth figures install format format-check clean
+.PHONY: all help build fly test data setup extras check-orbit check-sky check-error truth figures install format format-check clean
 all: build
 
 help: ## this list
@@ -36,6 +37,10 @@ check-orbit: setup data ## what must hold for the flight, line by line
 check-sky: setup ## what must hold for the clear sky, line by line
 	@scripts/build.sh $(BUILD) $(JOBS) ON
 	@/usr/bin/python3 scripts/check_sky.py --build $(BUILD) --out $(OUT)/check-sky $(SKY)
+
+check-error: setup data ## what must hold of error against run time, line by line
+	@scripts/build.sh $(BUILD) $(JOBS) ON
+	@/usr/bin/python3 scripts/check_error.py --build $(BUILD) --out $(OUT)/check-error $(ERROR)
 
 truth: build ## make anew what has changed of the truth of the sky, tests/truth/sky/
 	@/usr/bin/python3 scripts/make_truth.py --build $(BUILD) $(TRUTH)
