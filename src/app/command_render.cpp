@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "commands.h"
@@ -28,13 +29,9 @@ Result<void> writeRendered(const RenderOptions& o, const Renderer& renderer, con
 
 constexpr int kTimedFrames = 5;
 
-// Wall time of a frame of the settled tree with every pixel marched: the median of a few.
-Result<double> pictureTime_ms(Renderer& renderer, const View& view) {
-  std::vector<double> times;
-  for (int i = 0; i < kTimedFrames; ++i) {
-    if (auto same = renderer.setMarch(renderer.scene().quality); !same) return same.error();  // else nothing would have changed: no frame
-    times.push_back(renderer.frame(view, FrameMode::Full).wall_ms);
-  }
+double medianTime_ms(Renderer& renderer, const View& view) {
+  std::array<double, kTimedFrames> times;
+  for (double& t : times) t = timePicture(renderer, view).wall_ms;
   std::nth_element(times.begin(), times.begin() + kTimedFrames / 2, times.end());
   return times[kTimedFrames / 2];
 }
@@ -109,9 +106,7 @@ Result<void> runRender(const RenderOptions& o) {
       report.tolerance_255 = o.common.tolerance_255;
       report.tolerance.push_back({0, kept->choice, kept->reached_255});
     }
-    auto time = pictureTime_ms(*stage->renderer, start->view);
-    if (!time) return time.error();
-    report.time_ms = *time;
+    report.time_ms = medianTime_ms(*stage->renderer, start->view);
     report.total_s = seconds;
     if (auto written = writeFile(o.common.json, report.json() + "\n"); !written) return written;
   }

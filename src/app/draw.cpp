@@ -1,9 +1,12 @@
 #include "welkin/app/draw.h"
 
+#include <glad/gl.h>
+
 #include "welkin/app/build_info.h"
 #include "welkin/clouds/default_layers.h"
 #include "welkin/core/log.h"
 #include "welkin/core/units.h"
+#include "welkin/gpu/timer.h"
 
 namespace welkin::app {
 
@@ -34,6 +37,13 @@ Result<FrameStats> drawConverged(Renderer& renderer, const View& view, const std
   });
   if (stopped) return Error{"stopped before the picture was whole"};
   return renderer.frame(view, FrameMode::Full);
+}
+
+PictureTime timePicture(Renderer& renderer, const View& view) {
+  const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
+  renderer.preview(view);
+  glFinish();
+  return {gpu::wall_ms() - wall0, gpu::processCpu_ms() - cpu0};
 }
 
 void describeDevice(const gpu::Context& context, measure::ReportContext& out) {

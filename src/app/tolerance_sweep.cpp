@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 struct Setting {
   double detailShare, step;
-  double rmse_255 = 0, time_ms = 0, rayCost = 0;
+  double rmse_255 = 0, time_ms = 0;
   std::vector<double> times;
 };
 
@@ -44,7 +44,7 @@ class ViewSweep {
              {"choices", Json::array()}};
     for (const Setting& s : settings_)
       out["candidates"].push_back(
-          {{"detail_share", s.detailShare}, {"step", s.step}, {"rmse_255", s.rmse_255}, {"time_ms", s.time_ms}, {"ray_cost", s.rayCost}});
+          {{"detail_share", s.detailShare}, {"step", s.step}, {"rmse_255", s.rmse_255}, {"time_ms", s.time_ms}});
     for (const double asked : options_.asked_255) {
       auto choice = choose(asked);
       if (!choice) return choice.error();
@@ -61,7 +61,7 @@ class ViewSweep {
     if (!truth) return truth.error();
     for (const double share : measure::kDetailShares)
       for (const double step : measure::kSteps) {
-        Setting s{share, step, 0, 0, 0, {}};
+        Setting s{share, step, 0, 0, {}};
         const auto error = measure::reachedError(renderer_, view_, exposure_ev_, *truth, measure::candidate(renderer_, view_, share, step));
         if (!error) return error.error();
         s.rmse_255 = *error;
@@ -71,9 +71,8 @@ class ViewSweep {
       for (Setting& s : settings_) {
         if (stopRequested()) return Error{"stopped before the sweep was whole"};
         if (auto used = renderer_.setMarch(measure::candidate(renderer_, view_, s.detailShare, s.step)); !used) return used;
-        const FrameStats stats = renderer_.frame(view_, FrameMode::Full);
-        s.times.push_back(software_ ? stats.cpu_ms : stats.wall_ms);
-        s.rayCost = measure::rayCost(stats.counters);
+        const PictureTime time = timePicture(renderer_, view_);
+        s.times.push_back(software_ ? time.cpu_ms : time.wall_ms);
       }
     for (Setting& s : settings_) s.time_ms = median(s.times);
     return {};

@@ -19,6 +19,12 @@ Result<Stage> openStage(const Scene& scene, const RenderSettings& settings, cons
 // Residency settled, then every pixel marched: the picture that `welkin render` shows. Error only when `progress` stopped it.
 Result<FrameStats> drawConverged(Renderer& renderer, const View& view, const std::function<bool(double)>& progress = {});
 
+// Times of one picture of the tree as it is, every pixel marched, until the GL has finished. The worker has nothing to do meanwhile.
+struct PictureTime {
+  double wall_ms, cpu_ms;
+};
+PictureTime timePicture(Renderer& renderer, const View& view);
+
 void describeDevice(const gpu::Context& context, measure::ReportContext& out);
 
 // State for a picture of this renderer's scene that will lie at `picture`. exposure_ev: at which it is shown (FrameStats); a metered
