@@ -26,7 +26,6 @@ namespace {
 constexpr std::uint64_t kLatency = 2;            // edits computed from frame k are applied at frame k + 2
 constexpr double kVoxelPixels = 0.78;            // finer is noise; at 180 lines this keeps K inside the octree maps (kMapReach)
 constexpr std::uint32_t kSettleBricks = 8192;    // bricks of one step while settling: nothing is drawn in between
-constexpr double kCloudShell_m = 20'000;         // the octree's root reaches this far above the ground
 constexpr int kMostSettleSteps = 4000;           // far over the count a tree of the largest budget needs
 constexpr int kRound = 16;                       // frames until every pixel was marched
 constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and their alignment
@@ -98,6 +97,8 @@ struct Renderer::Impl {
   void workOnSky();
   void useAir(const Scene& changed);
   Result<void> setAir(const Scene& changed, AirChange how);
+  ViewFrame frameOf(const View& view) const { return viewFrame(view, scene.planet.radius_m, shellTop_m(), settings.width, settings.height); }
+  void drawAside(const View& view, const std::function<void()>& march);  // a picture that leaves history, tree and exposure alone
   void beginPicture(const ViewFrame& frame, bool bare = false);  // camera, counters, sky
   // Composite and exposure. sinceLast_s: ExposurePass::meter; none: the exposure stays where it is, unless there is none yet.
   void endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s, bool bare = false);
@@ -149,7 +150,7 @@ Result<void> Renderer::Impl::create() {
   if (!made) return made.error();
   source = std::move(*made);
   if (!source->note().empty()) note(source->note());
-  const TreeLayout layout = TreeLayout::fit(treeBudget(scene, account, BrickPasses::bytes(*source)), std::uint32_t(scene.quality.depth));
+  const TreeLayout layout = TreeLayout::fit(treeBudget(scene, account, BrickPasses::bytes(*source)), std::uint32_t(scene.quality.depth), settings.brickBits);
   if (layout.bricks == 0) {
     const std::uint64_t least = account.used() + BrickPasses::bytes(*source) + kSmallBuffers + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
     return Error{fmt::format("budget: {} MiB is too little for this scene at depth {}: the least that works is {} MiB",
@@ -158,7 +159,7 @@ Result<void> Renderer::Impl::create() {
   auto residentTree = ResidentTree::create(account, layout, root);
   if (!residentTree) return residentTree.error();
   tree.emplace(std::move(*residentTree));
-  auto brickPasses = BrickPasses::create(account, *source, *tree, plan);
+  auto brickPasses = BrickPasses::create(account, *source, *tree, plan, settings.light);
   if (!brickPasses) return brickPasses.error();
   bricks.emplace(std::move(*brickPasses));
   auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan, scene.quality);
@@ -375,7 +376,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
     return r.report(stats);
   }
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
-  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
+  const ViewFrame frame = r.frameOf(view);
   if (!r.settings.reprojection) mode = FrameMode::Full;
 
   FrameEdits edits;
@@ -438,7 +439,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   if (!r.plan.clouds || r.bareNow(view, stats)) return r.report(stats);
   r.away = false;
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
-  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
+  const ViewFrame frame = r.frameOf(view);
   std::uint64_t made = 0;
   std::map<std::uint32_t, BrickJob> lit;
   int batches = 0;
@@ -487,18 +488,46 @@ Result<void> Renderer::setMarch(const Quality& quality) {
 
 void Renderer::preview(const View& view) {
   Impl& r = *impl_;
-  const ViewFrame frame = viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height);
-  const bool timed = std::exchange(r.timer.enabled, false);
-  r.stillFrames = 0;
-  r.beginPicture(frame);
-  if (r.plan.clouds) {
-    r.updateTreeBlock(view.position_m);
-    r.tree->updateMaps(view.position_m);
-    r.tree->bind();
-    r.clouds->preview(r.scene);
+  r.drawAside(view, [&] { r.clouds->preview(r.scene); });
+}
+
+void Renderer::Impl::drawAside(const View& view, const std::function<void()>& march) {
+  const ViewFrame frame = frameOf(view);
+  const bool timed = std::exchange(timer.enabled, false);
+  stillFrames = 0;
+  beginPicture(frame);
+  if (plan.clouds) {
+    updateTreeBlock(view.position_m);
+    tree->updateMaps(view.position_m);
+    tree->bind();
+    march();
   }
-  r.endPicture(frame, view, {});
-  r.timer.enabled = timed;
+  endPicture(frame, view, {});
+  timer.enabled = timed;
+}
+
+shared::CameraBlock Renderer::camera(const View& view) const { return impl_->frameOf(view).block; }
+
+TreeData Renderer::tree(const View& view) {
+  Impl& r = *impl_;
+  if (!r.plan.clouds) return {};
+  r.greatestDetail = static_cast<float>(pixelDetail(r.frameOf(view), r.settings.height));
+  r.updateTreeBlock(view.position_m);
+  return r.tree->readBack();
+}
+
+Result<void> Renderer::drawWith(const View& view, std::span<const shared::CloudWeights> clouds) {
+  Impl& r = *impl_;
+  if (r.plan.clouds && clouds.size() != std::size_t(r.settings.width) * std::size_t(r.settings.height))
+    return Error{fmt::format("expected what the clouds bring for {} x {} pixels, got {}", r.settings.width, r.settings.height, clouds.size())};
+  Result<void> shown;
+  r.drawAside(view, [&] { shown = r.clouds->show(r.account, r.scene, clouds); });
+  return shown;
+}
+
+double Renderer::shownDetail(const View& view) const {
+  const Impl& r = *impl_;
+  return pixelDetail(viewFrame(view, r.scene.planet.radius_m, r.shellTop_m(), r.settings.width, r.settings.height), r.settings.height);
 }
 
 Image8 Renderer::image() const {

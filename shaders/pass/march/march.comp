@@ -13,6 +13,7 @@ layout(std140, binding = WK_AIR_PARAMS_BINDING) uniform AirUniforms { AirBlock u
 #define PIXELS_ALL 0
 #define PIXELS_SIXTEENTH 1
 #define PIXELS_LIST 2
+#define PIXELS_GIVEN 3  // all, and not marched: what the rays bring is given
 #if PIXELS == PIXELS_LIST
 layout(local_size_x = 64) in;
 #else
@@ -33,6 +34,9 @@ layout(rgba16f, binding = 2) uniform writeonly image2D u_change;
 #endif
 #if PIXELS == PIXELS_LIST
 layout(std430, binding = WK_PIXELS_BINDING) readonly buffer PixelList { uint groups, one, one_, count, pixels[]; };
+#endif
+#if PIXELS == PIXELS_GIVEN
+layout(std430, binding = WK_PIXELS_BINDING) readonly buffer GivenClouds { CloudWeights given[]; };
 #endif
 uniform ivec2 u_size;
 uniform ivec2 u_offset;   // which pixel of each 4 x 4
@@ -83,7 +87,12 @@ void main() {
   Ray view = cameraRay(camera, ndc);
   dvec3 position = xyz(camera.position);
   CloudPhases phases = cloudPhases(dot(view.dir, tree.sunDir.xyz));
+#if PIXELS == PIXELS_GIVEN
+  CloudWeights weights = given[pixel.y * u_size.x + pixel.x];
+  CloudRay cloud = CloudRay(weights.sun, weights.sky, weights.ground, weights.transmittance, weights.distance_m, 0u, 0u, false);
+#else
   CloudRay cloud = marchClouds(position, camera.position.w, camera.up.w, camera.forward.w, view.dir, view.ground_m, phases);
+#endif
   vec3 light = vec3(0.0);
   if (cloud.transmittance < 1.0) {
     CloudColours colours = coloursAt(position + dvec3(view.dir) * double(cloud.distance_m));

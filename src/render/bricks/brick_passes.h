@@ -12,7 +12,7 @@ namespace welkin {
 class BrickPasses {
  public:
   // Without a sun the light pass is not compiled, and light() may not be called.
-  static Result<BrickPasses> create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, const FramePlan& plan);
+  static Result<BrickPasses> create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, const FramePlan& plan, double light);
 
   void generate(const ResidentTree& tree, const std::vector<BrickJob>& jobs, std::uint64_t frame);
   void light(const ResidentTree& tree, const std::vector<BrickJob>& jobs);

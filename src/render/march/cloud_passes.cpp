@@ -16,6 +16,13 @@ unsigned groups(int pixels, int size) { return static_cast<unsigned>((pixels + s
 
 constexpr double kLeastEye_m = 0.001;
 
+// What a quality defines for the march.
+gpu::Defines rulesOf(const Quality& quality) {
+  return {{"INTEGRATOR", std::to_string(int(quality.integrator))},
+          {"STEP_RULE", std::to_string(int(quality.stepRule)) + "u"},
+          {"SKIP_EMPTY", quality.skipEmpty ? "1" : "0"}};
+}
+
 }  // namespace
 
 ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, int width, int height) {
@@ -74,9 +81,7 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
 }
 
 Result<void> CloudPasses::use(const Quality& quality) {
-  const gpu::Defines rules{{"INTEGRATOR", std::to_string(int(quality.integrator))},
-                           {"STEP_RULE", std::to_string(int(quality.stepRule)) + "u"},
-                           {"SKIP_EMPTY", quality.skipEmpty ? "1" : "0"}};
+  const gpu::Defines rules = rulesOf(quality);
   std::string key;
   for (const auto& [name, value] : rules) key += value + " ";
   if (const auto found = marches_.find(key); found != marches_.end()) {
@@ -105,14 +110,11 @@ void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int targ
   if (history_) age_[target].bindImage(3, GL_WRITE_ONLY);
 }
 
-void CloudPasses::setLight(const Scene& scene) const {
+void CloudPasses::setLight(const gpu::Program& program, const Scene& scene) const {
   const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
   const float albedo = float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3;
-  for (const gpu::Program* p : {&march_->all, &march_->sixteenth, &march_->list}) {
-    if (!p->valid()) continue;
-    p->set("u_sunIrradiance", irradiance);
-    p->set("u_groundAlbedo", albedo);
-  }
+  program.set("u_sunIrradiance", irradiance);
+  program.set("u_groundAlbedo", albedo);
 }
 
 void CloudPasses::setMotion(const gpu::Program& program, const ViewFrame& view) const {
@@ -127,17 +129,37 @@ void CloudPasses::show(int target) const {
   if (aux_[target].id()) aux_[target].bind(WK_CLOUD_AUX_UNIT);
 }
 
-void CloudPasses::preview(const Scene& scene) {
-  setLight(scene);
+void CloudPasses::preview(const Scene& scene) { marchSpare(march_->all, scene); }
+
+Result<void> CloudPasses::show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds) {
+  if (!given_.valid()) {
+    gpu::Defines variant = defines_, rules = rulesOf(scene.quality);  // it compiles the march, and does not call it
+    variant.insert(variant.end(), rules.begin(), rules.end());
+    variant.emplace_back("PIXELS", "3");
+    auto program = gpu::Program::compute("pass/march/march.comp", variant);
+    if (!program) return program.error();
+    given_ = std::move(*program);
+  }
+  auto buffer = gpu::Buffer::create(account, "given clouds", clouds.size_bytes(), GL_DYNAMIC_STORAGE_BIT, true);
+  if (!buffer) return buffer.error();
+  buffer->upload(0, std::as_bytes(clouds));
+  buffer->bind(GL_SHADER_STORAGE_BUFFER, WK_PIXELS_BINDING);
+  marchSpare(given_, scene);
+  return {};
+}
+
+void CloudPasses::marchSpare(const gpu::Program& program, const Scene& scene) const {
+  setLight(program, scene);
   const int spare = history_ ? 1 - current_ : 0;  // the next run() writes every pixel of it
-  march(march_->all, {0, 0}, spare);
-  march_->all.dispatch(groups(width_, 8), groups(height_, 8));
+  march(program, {0, 0}, spare);
+  program.dispatch(groups(width_, 8), groups(height_, 8));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   show(spare);
 }
 
 void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
-  setLight(scene);
+  for (const gpu::Program* p : {&march_->all, &march_->sixteenth, &march_->list})
+    if (p->valid()) setLight(*p, scene);
   const int old = current_;
   current_ = history_ ? 1 - current_ : 0;
   if (mode == FrameMode::Full || !haveHistory_ || !history_) {

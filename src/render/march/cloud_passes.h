@@ -7,6 +7,7 @@
 #include "welkin/gpu/timer.h"
 #include "welkin/render/renderer.h"
 #include "welkin/shared/camera.glsl.h"
+#include "welkin/shared/cloud_weights.glsl.h"
 
 namespace welkin {
 
@@ -27,11 +28,14 @@ class CloudPasses {
   void run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer);
   // Marches every pixel into the spare target, which is bound as the new clouds; history stays as it is.
   void preview(const Scene& scene);
+  // The same with what each pixel's ray brings given, rows from the top, instead of marched.
+  Result<void> show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds);
   void forget() { haveHistory_ = false; }  // the next frame marches every pixel
 
  private:
   void march(const gpu::Program& program, glm::ivec2 offset, int target) const;
-  void setLight(const Scene& scene) const;
+  void marchSpare(const gpu::Program& program, const Scene& scene) const;
+  void setLight(const gpu::Program& program, const Scene& scene) const;
   void show(int target) const;  // to whom puts the picture together
   void setMotion(const gpu::Program& program, const ViewFrame& view) const;
   int width_ = 0, height_ = 0, current_ = 0;
@@ -47,7 +51,7 @@ class CloudPasses {
   gpu::Defines defines_;              // of all marches
   std::map<std::string, Programs> marches_;  // by what their quality defines
   const Programs* march_ = nullptr;   // the one in use
-  gpu::Program reproject_;
+  gpu::Program reproject_, given_;    // given: made when it is first asked for
 };
 
 }  // namespace welkin

@@ -41,6 +41,14 @@ inline std::vector<ShaderVariant> shaderTable() {
       for (const char* one : {"0", "1"})
         table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}, {"ONE_LAYER", one}}});
     table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
+    for (const char* format : {"rg16", "rg8"}) {  // for comparisons only
+      const gpu::Defines bricks{{"BRICK_TEXTURES", textures}, {"BRICK_FORMAT", format}, {"BRICK_STEPS", format[2] == '8' ? "255.0" : "65535.0"}};
+      gpu::Defines generate = bricks, light = bricks;
+      generate.emplace_back("SOURCE_SHADER", "lib/clouds/layers.glsl");
+      light.insert(light.end(), {{"LIGHT_REACH", "3.000000"}, {"LIGHT_NEAR_SAMPLES", "6"}, {"LIGHT_NODE_SAMPLES", "4"}});
+      table.push_back({"pass/bricks/generate.comp", generate});
+      table.push_back({"pass/light/light.comp", light});
+    }
     struct March {
       const char *air = "1", *ground = "1", *aux = "1", *history = "1";
       int pixels = 0, integrator = 5, rule = 2;
@@ -54,7 +62,7 @@ inline std::vector<ShaderVariant> shaderTable() {
     };
     for (const char* air : {"0", "1"})
       for (const char* ground : {"0", "1"}) {
-        for (int pixels = 0; pixels < 3; ++pixels) march({.air = air, .ground = ground, .pixels = pixels});
+        for (int pixels = 0; pixels < 4; ++pixels) march({.air = air, .ground = ground, .pixels = pixels});
         march({.air = air, .ground = ground, .history = "0"});
       }
     march({.air = "0", .ground = "0", .aux = "0", .history = "0"});
