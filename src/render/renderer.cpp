@@ -369,7 +369,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
   Impl& r = *impl_;
   FrameStats stats;
   stats.frame = r.frameNumber++;
-  if (r.asBefore(view)) {
+  if (mode == FrameMode::Reprojected && r.asBefore(view)) {
     stats.leftOut = "nothing-moves";
     stats.counters.nanPixels = r.shownNan;
     stats.exposure_ev = r.shown_ev(view);

@@ -4,14 +4,14 @@
 #include <numbers>
 
 #include "welkin/physics/air.h"
+#include "welkin/physics/root_frame.h"
 #include "welkin/render/frame_plan.h"
 
 namespace welkin {
 namespace {
 
 constexpr double kSlack_rad = 1e-4;   // rounding of single-precision rays: 1e-7, and generously more
-constexpr double kShell_m = 20'000;   // clouds end here (the octree's root), stored ones from space at the source's top:
-constexpr double kSpace_m = 250'000;  // from this altitude on (kLimbFull_m in cloud_march.glsl)
+constexpr double kSpace_m = 250'000;  // from here on clouds end at their source's top (kLimbFull_m in cloud_march.glsl)
 // A point gets light scattered n times while the sun is at most (2 n - 1) dips of the shell's horizon below its own. Five leave out
 // what was scattered at least four times, always through the shell's limb: under 1e-6 of the sun for any air.
 constexpr double kTwilightDips = 5;
@@ -31,7 +31,7 @@ Sight sightOf(const Scene& scene, const View& view, double aspect) {
   const auto meets = [&](double radius_m) { return radius_m >= r || off_rad - half_rad <= std::asin(radius_m / r); };
 
   const bool clouds = scene.clouds && !scene.clouds->sources.empty(), air = scene.atmosphere && !scene.atmosphere->layers.empty();
-  const double top_m = std::max(clouds ? kShell_m : 0.0, air ? airTop_m(scene) : 0.0);
+  const double top_m = std::max(clouds ? kCloudShell_m : 0.0, air ? airTop_m(scene) : 0.0);
   Sight sight;
   sight.ground = meets(R);
   sight.shell = (clouds && r < R + kSpace_m) || meets(R + top_m);
