@@ -83,7 +83,8 @@ class Bench {
     progress.finish();
     if (stopRequested()) return Error{fmt::format("{}: stopped before all was measured", options_.scene.string())};
     report_["left_out"] = Json::array();
-    for (const auto& left : renderer().plan().leftOut) report_["left_out"].push_back({{"name", left.name}, {"what", left.what}, {"reason", left.reason}});
+    for (const auto& [what, reason, name] : renderer().plan().leftOut)
+      report_["left_out"].push_back({{"name", name}, {"what", what}, {"reason", reason}});
     report_["gl_debug_messages"] = stage_.context->debugMessages();
     if (!options_.common.json.empty()) {
       const auto text = report_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

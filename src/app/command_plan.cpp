@@ -47,10 +47,17 @@ Result<std::vector<Saving>> measureAll(const PlanOptions& o, const Start& start,
   if (!context) return context.error();
   measure::ReportContext about = describeRun(start.scene, how.size);
   describeDevice(**context, about);
-  out["context"] = {{"gl_renderer", about.glRenderer}, {"software", about.software}, {"width", how.size.width}, {"height", how.size.height},
-                    {"turns", how.turns}, {"frames", how.frames}, {"clock", about.software ? "cpu" : "wall"}};
+  out["context"] = {{"gl_renderer", about.glRenderer},
+                    {"software", about.software},
+                    {"width", how.size.width},
+                    {"height", how.size.height},
+                    {"turns", how.turns},
+                    {"frames", how.frames},
+                    {"clock", about.software ? "cpu" : "wall"}};
   std::vector<std::pair<PlanFor, LeftOut>> jobs;
-  const auto known = [&](const std::string& name) { return std::any_of(jobs.begin(), jobs.end(), [&](auto& job) { return job.second.name == name; }); };
+  const auto known = [&](const std::string& name) {
+    return std::any_of(jobs.begin(), jobs.end(), [&](auto& job) { return job.second.name == name; });
+  };
   for (const bool flight : {false, true}) {
     const PlanFor asked = askedFor(start, how.size, flight);
     for (const LeftOut& reason : planFrame(start.scene, asked).leftOut) {
@@ -77,7 +84,9 @@ void printSavings(const std::vector<Saving>& savings) {
   fmt::print("saved, with the reason and with it forced not to hold (ms to the first picture, ms a frame, MiB):\n");
   fmt::print("  {:<16} {:<8} {:>22} {:>22} {:>22} {:>11}\n", "reason", "asked", "start", "frame", "memory", "difference");
   for (const Saving& s : savings) {
-    const auto cell = [](const Sides& v, double scale) { return fmt::format("{:.1f} / {:.1f} {:>4.0f} %", v.leftOut * scale, v.forced * scale, 100 * v.saved()); };
+    const auto cell = [](const Sides& v, double scale) {
+      return fmt::format("{:.1f} / {:.1f} {:>4.0f} %", v.leftOut * scale, v.forced * scale, 100 * v.saved());
+    };
     fmt::print("  {:<16} {:<8} {:>22} {:>22} {:>22} {:>7}/255\n", s.reason.name, s.flight ? "flight" : "picture", cell(s.start_ms, 1),
                cell(s.frame_ms, 1), cell(s.bytes, 0x1p-20), s.maxDifference_255);
   }
@@ -94,7 +103,11 @@ Result<void> runPlan(const PlanOptions& o) {
     if (auto writable = checkWritableFile(o.common.json); !writable) return writable;
   }
   const FramePlan plan = planFrame(start->scene, askedFor(*start, size, o.flight));
-  Json out{{"scene", o.input.generic_string()}, {"view", start->viewName}, {"asked", o.flight ? "flight" : "picture"}, {"passes", plan.passes}, {"left_out", Json::array()}};
+  Json out{{"scene", o.input.generic_string()},
+           {"view", start->viewName},
+           {"asked", o.flight ? "flight" : "picture"},
+           {"passes", plan.passes},
+           {"left_out", Json::array()}};
   for (const auto& left : plan.leftOut) out["left_out"].push_back({{"name", left.name}, {"what", left.what}, {"reason", left.reason}});
   if (!plan.skyModel.empty()) out["sky"] = {{"model", plan.skyModel}, {"reason", plan.skyReason}};
   out["budget_bytes"] = start->scene.quality.budget_bytes;

@@ -1,11 +1,11 @@
 #include "plan_measure.h"
 
+#include <glad/gl.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
-
-#include <glad/gl.h>
 
 #include "welkin/measure/statistics.h"
 
@@ -73,7 +73,8 @@ int greatestDifference(const Image8& a, const Image8& b) {
 
 double Saving::most() const { return std::max({start_ms.saved(), frame_ms.saved(), bytes.saved()}); }
 
-Result<Saving> measureReason(gpu::Context& context, const Start& start, const PlanFor& asked, const LeftOut& reason, const MeasureSettings& how) {
+Result<Saving> measureReason(gpu::Context& context, const Start& start, const PlanFor& asked, const LeftOut& reason,
+                             const MeasureSettings& how) {
   RenderSettings settings;
   settings.width = how.size.width, settings.height = how.size.height;
   settings.timing = false;

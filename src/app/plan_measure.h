@@ -14,9 +14,9 @@ struct Sides {  // medians over the turns: as planned, and with the reason force
 
 struct Saving {
   LeftOut reason;
-  bool flight = false;      // asked: a flight; else one picture
-  Sides start_ms, frame_ms; // to the first whole picture; each frame after it. Software GL: CPU time of all threads, else wall time
-  Sides bytes;              // of GL memory, of the brick pool what is in use
+  bool flight = false;       // asked: a flight; else one picture
+  Sides start_ms, frame_ms;  // to the first whole picture; each frame after it. Software GL: CPU time of all threads, else wall time
+  Sides bytes;               // of GL memory, of the brick pool what is in use
   int maxDifference_255 = 0;
   double most() const;
 };
@@ -27,6 +27,7 @@ struct MeasureSettings {
 };
 
 // `asked` says whether one picture or a flight is asked for; each reason must hold for it.
-Result<Saving> measureReason(gpu::Context& context, const Start& start, const PlanFor& asked, const LeftOut& reason, const MeasureSettings& how);
+Result<Saving> measureReason(gpu::Context& context, const Start& start, const PlanFor& asked, const LeftOut& reason,
+                             const MeasureSettings& how);
 
 }  // namespace welkin::app

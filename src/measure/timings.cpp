@@ -94,6 +94,7 @@ Json frameJson(const FrameRow& row) {
   out["cpu_bytes"] = s.residency.cpuBytes;
   out["sample_detail"] = s.sampleDetail;
   out["exposure_ev"] = s.exposure_ev;
+  if (!s.leftOut.empty()) out["left_out"] = s.leftOut;
   if (!row.picture.empty()) out["picture"] = row.picture;
   return out;
 }

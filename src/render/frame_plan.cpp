@@ -8,9 +8,9 @@
 namespace welkin {
 
 const std::vector<std::string>& leftOutReasons() {
-  static const std::vector<std::string> names{"no-clouds",    "no-atmosphere", "no-sun",  "thin-air",       "smooth-air",
-                                              "no-ground",    "overcast",      "night",   "looking-away",   "fixed-exposure",
-                                              "no-aov",       "one-picture",   "one-layer", "sun-fixed",      "nothing-moves"};
+  static const std::vector<std::string> names{"no-clouds", "no-atmosphere", "no-sun",    "thin-air",     "smooth-air",
+                                              "no-ground", "overcast",      "night",     "looking-away", "fixed-exposure",
+                                              "no-aov",    "one-picture",   "one-layer", "sun-fixed",    "nothing-moves"};
   return names;
 }
 
@@ -47,7 +47,8 @@ FramePlan planFrame(const Scene& given, const PlanFor& asked) {
   };
   const auto& sun = scene.sun;
   plan.air = scene.atmosphere && !scene.atmosphere->layers.empty();
-  plan.sun = sun && (asked.forced.contains("no-sun") || std::any_of(sun->irradiance.begin(), sun->irradiance.end(), [](double e) { return e > 0; }));
+  plan.sun = sun && (asked.forced.contains("no-sun") ||
+                     std::any_of(sun->irradiance.begin(), sun->irradiance.end(), [](double e) { return e > 0; }));
   plan.clouds = scene.clouds && !scene.clouds->sources.empty();
   const std::optional<LeftOut> unseen = nothingSeen(scene, asked);
   if (unseen) {
@@ -57,14 +58,16 @@ FramePlan planFrame(const Scene& given, const PlanFor& asked) {
   } else {
     if (!plan.sun) leave("no-sun", "sun disc, shadow rays, light, sky tables", "no sun in the scene");
     if (!plan.air) leave("no-atmosphere", "sky tables, aerial perspective", "no atmosphere in the scene");
-    if (!plan.clouds) leave("no-clouds", "octree, worker, brick pool, bricks, light, octree maps, march, reprojection", "no clouds in the scene");
+    if (!plan.clouds)
+      leave("no-clouds", "octree, worker, brick pool, bricks, light, octree maps, march, reprojection", "no clouds in the scene");
     plan.air = plan.air && plan.sun;
   }
 
   const bool fixed = scene.output.exposure_ev || (asked.onePicture && asked.view && asked.view->exposure_ev);
   plan.metered = plan.sun && !fixed;
   if (!plan.metered)
-    plan.metered = !leave("fixed-exposure", "metering, adaptation of the exposure", plan.sun ? "the exposure is a number" : "no sun in the scene: nothing to adapt to");
+    plan.metered = !leave("fixed-exposure", "metering, adaptation of the exposure",
+                          plan.sun ? "the exposure is a number" : "no sun in the scene: nothing to adapt to");
 
   if (plan.air) {
     plan.passes.emplace_back("sky");
@@ -83,10 +86,12 @@ FramePlan planFrame(const Scene& given, const PlanFor& asked) {
   if (const auto deck = plan.clouds ? opaqueDeck(scene) : std::nullopt) {
     const double altitude_m = asked.view ? glm::length(asked.view->position_m) - scene.planet.radius_m : 0;
     const bool above = asked.view && altitude_m > deck->top_m && altitude_m < kDeckSeenFrom_m;
-    if (above && leave("overcast", "ground and clouds below an opaque deck", "the camera is above a deck without a gap") && here) plan.ground = false;
+    if (above && leave("overcast", "ground and clouds below an opaque deck", "the camera is above a deck without a gap") && here)
+      plan.ground = false;
   }
 
-  if (plan.clouds && oneLayer(*scene.clouds)) plan.oneLayer = leave("one-layer", "search among layers, type of the weather", "there is one layer of clouds, in any weather");
+  if (plan.clouds && oneLayer(*scene.clouds))
+    plan.oneLayer = leave("one-layer", "search among layers, type of the weather", "there is one layer of clouds, in any weather");
 
   plan.history = plan.clouds;
   if (plan.clouds && here)
@@ -94,13 +99,16 @@ FramePlan planFrame(const Scene& given, const PlanFor& asked) {
   plan.albedoMap = plan.ground && plan.sun && !unseen;
   plan.aux = plan.clouds && (plan.history || plan.air || (plan.ground && plan.sun));
   plan.linear = plan.metered || asked.linear;
-  if (!plan.linear && !leave("no-aov", plan.clouds && !plan.aux ? "linear picture; distance and shadow of clouds" : "linear picture", "nobody reads them"))
+  if (!plan.linear &&
+      !leave("no-aov", plan.clouds && !plan.aux ? "linear picture; distance and shadow of clouds" : "linear picture", "nobody reads them"))
     plan.linear = true, plan.aux = plan.clouds;
 
   if (plan.sun && (plan.clouds || plan.air))
-    plan.sunMayMove = !leave("sun-fixed", "light of bricks while the tree settles, what the sky's light was made with", "sun and weather stay: light is made once");
+    plan.sunMayMove = !leave("sun-fixed", "light of bricks while the tree settles, what the sky's light was made with",
+                             "sun and weather stay: light is made once");
   if (!asked.onePicture && !plan.metered)
-    plan.redraw = !leave("nothing-moves", "every pass, while camera, tree and light are as in the last frame", "nothing moves: the picture is the same");
+    plan.redraw = !leave("nothing-moves", "every pass, while camera, tree and light are as in the last frame",
+                         "nothing moves: the picture is the same");
 
   if (plan.clouds) {
     plan.passes.emplace_back("maps");

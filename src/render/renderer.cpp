@@ -46,7 +46,8 @@ std::uint64_t treeBudget(const Scene& scene, const gpu::MemoryAccount& account, 
 
 struct Renderer::Impl {
   Impl(gpu::Context& c, const Scene& s, const RenderSettings& r)
-      : context(c), scene(sceneFor(s, r.forced)), settings(r), plan(planFrame(s, planFor())), account(s.quality.budget_bytes), timer(c.device().software) {
+      : context(c), scene(sceneFor(s, r.forced)), settings(r), plan(planFrame(s, planFor())), account(s.quality.budget_bytes),
+        timer(c.device().software) {
     timer.enabled = r.timing;
   }
 
@@ -252,7 +253,7 @@ void Renderer::Impl::workOnSky() {
 void Renderer::Impl::useAir(const Scene& changed) {
   scene.planet.albedo = changed.planet.albedo, scene.atmosphere = changed.atmosphere, scene.sun = changed.sun;
   composite->use(scene);
-  stillFrames = 0;
+  stillFrames = 0, marchedFrames = 0;
 }
 
 Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
@@ -265,7 +266,8 @@ Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
   if (plan.clouds && plan.sun && next.sun->direction_planet != scene.sun->direction_planet)
     return Error{"a sun that moves needs a new start: clouds keep its light"};
   if (sky) {
-    auto tables = how == AirChange::Keep ? SkyTables::withField(account, next, *sky, plan.everyHarmonic) : SkyTables::begin(account, next, SkyOrders::All, plan.everyHarmonic);
+    auto tables = how == AirChange::Keep ? SkyTables::withField(account, next, *sky, plan.everyHarmonic)
+                                         : SkyTables::begin(account, next, SkyOrders::All, plan.everyHarmonic);
     if (!tables) return tables.error();
     nextSky.reset();
     if (how == AirChange::Recompute) {
@@ -368,7 +370,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
   Impl& r = *impl_;
   FrameStats stats;
   stats.frame = r.frameNumber++;
-  if (r.asBefore(view)) {
+  if (mode == FrameMode::Reprojected && r.asBefore(view)) {
     stats.leftOut = "nothing-moves";
     stats.counters.nanPixels = r.shownNan;
     stats.exposure_ev = r.shown_ev(view);
@@ -476,7 +478,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
 Result<void> Renderer::setAir(const Scene& changed, AirChange how) { return impl_->setAir(changed, how); }
 Result<void> Renderer::setMarch(const Quality& quality) {
   auto& now = impl_->scene.quality;
-  impl_->stillFrames = 0;
+  impl_->stillFrames = 0, impl_->marchedFrames = 0;
   now.integrator = quality.integrator, now.stepRule = quality.stepRule, now.skipEmpty = quality.skipEmpty;
   now.step = quality.step, now.detail = quality.detail;
   return impl_->clouds ? impl_->clouds->use(now) : Result<void>{};

@@ -4,14 +4,14 @@
 #include <numbers>
 
 #include "welkin/physics/air.h"
+#include "welkin/physics/root_frame.h"
 #include "welkin/render/frame_plan.h"
 
 namespace welkin {
 namespace {
 
-constexpr double kSlack_rad = 1e-4;  // rounding of single-precision rays: 1e-7, and generously more
-constexpr double kShell_m = 20'000;  // clouds end here (the octree's root), stored ones from space at the source's top:
-constexpr double kSpace_m = 250'000;  // from this altitude on (kLimbFull_m in cloud_march.glsl)
+constexpr double kSlack_rad = 1e-4;   // rounding of single-precision rays: 1e-7, and generously more
+constexpr double kSpace_m = 250'000;  // from here on clouds end at their source's top (kLimbFull_m in cloud_march.glsl)
 // A point gets light scattered n times while the sun is at most (2 n - 1) dips of the shell's horizon below its own. Five leave out
 // what was scattered at least four times, always through the shell's limb: under 1e-6 of the sun for any air.
 constexpr double kTwilightDips = 5;
@@ -31,7 +31,7 @@ Sight sightOf(const Scene& scene, const View& view, double aspect) {
   const auto meets = [&](double radius_m) { return radius_m >= r || off_rad - half_rad <= std::asin(radius_m / r); };
 
   const bool clouds = scene.clouds && !scene.clouds->sources.empty(), air = scene.atmosphere && !scene.atmosphere->layers.empty();
-  const double top_m = std::max(clouds ? kShell_m : 0.0, air ? airTop_m(scene) : 0.0);
+  const double top_m = std::max(clouds ? kCloudShell_m : 0.0, air ? airTop_m(scene) : 0.0);
   Sight sight;
   sight.ground = meets(R);
   sight.shell = (clouds && r < R + kSpace_m) || meets(R + top_m);
@@ -49,7 +49,8 @@ std::optional<LeftOut> nothingSeen(const Scene& scene, const PlanFor& asked) {
   if (!asked.view || (!clouds && (!scene.atmosphere || scene.atmosphere->layers.empty()))) return {};
   const Sight sight = sightOf(scene, *asked.view, asked.aspect);
   const char* what = "streaming, light, sky tables of the view, march: the ground, the sun and black are drawn";
-  if (!sight.shell && !asked.forced.contains("looking-away")) return LeftOut{what, "the camera is above air and clouds and looks past them", "looking-away"};
+  if (!sight.shell && !asked.forced.contains("looking-away"))
+    return LeftOut{what, "the camera is above air and clouds and looks past them", "looking-away"};
   // A meter would turn up what little light there is, and who reads numbers may look for it.
   const auto ev = asked.view->exposure_ev ? asked.view->exposure_ev : scene.output.exposure_ev;
   const Spectrum3 light = scene.sun ? scene.sun->irradiance : Spectrum3{};

@@ -80,7 +80,8 @@ SelectionView StreamState::Impl::lookFrom() const {
   SelectionView view = motion.view();
   view.cloudBase_m = source.base_m();
   view.cloudTop_m = source.top_m();
-  if (settings.deck) view.deckTop_m = settings.deck->top_m, view.deckFloor_m = settings.deck->floor_m;
+  const double altitude_m = glm::length(view.position_m) - root.planetRadius_m;
+  if (settings.deck && altitude_m < kDeckSeenFrom_m) view.deckTop_m = settings.deck->top_m, view.deckFloor_m = settings.deck->floor_m;
   return view;
 }
 

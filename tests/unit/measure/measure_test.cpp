@@ -133,7 +133,7 @@ TimingReport report() {
     row.stats.bytesBudget = 2000;
     r.frames.push_back(row);
   }
-  r.leftOut = {{"sky tables", "no atmosphere"}};
+  r.leftOut = {{"sky tables", "no atmosphere", "no-atmosphere"}};
   r.quality = {{1, {}}, {2, {}}};
   r.quality[1].error.rmse_255 = 3;
   r.pops = {{2, 1.5, 0.1, 7}};
@@ -154,6 +154,7 @@ TEST(Timings, jsonHasWhatIsPromised) {
   EXPECT_EQ(j["residency"]["greatest_bytes"], 1003);
   EXPECT_EQ(j["residency"]["budget_kept"], true);
   EXPECT_EQ(j["left_out"][0]["reason"], "no atmosphere");
+  EXPECT_EQ(j["left_out"][0]["name"], "no-atmosphere");
   EXPECT_EQ(j["quality"]["rmse_255"]["max"], 3);
   EXPECT_EQ(j["pop"]["p999_255"], 1.5);
   EXPECT_EQ(j["pop"]["largest_mean_255"], 0.1);
