@@ -87,7 +87,7 @@ TEST(CloudPathTracer, OneOrderOfASlab) {
     const Medium black = bare(Spectrum(0));
     const CloudPathTracer tracer(black, *slab, kRoot, kFine);
     PathSettings settings;
-    settings.maxOrders = 1, settings.relativeError = 0.02, settings.maxPaths = 60'000;
+    settings.maxOrders = 1, settings.relativeError = 0.005, settings.maxPaths = 200'000;
     const double mu0 = std::cos(50 * kDeg), mu = std::cos(30 * kDeg);
     const PathRay ray = rayOf(5000, 50, 150, 60);
     const double expected = droplets(ray) * mu0 / (mu + mu0) * -std::expm1(-depth * (1 / mu + 1 / mu0));
