@@ -9,7 +9,7 @@
 namespace welkin::app {
 namespace {
 
-constexpr double kStep = 0.05;        // of the march: a probe measures, and one pixel is cheap; the default is up to 0.04 off in transmittance
+constexpr double kStep = 0.05;  // of the march: a probe measures, and one pixel is cheap; the default is up to 0.04 off in transmittance
 constexpr double kPixel_deg = 0.001;  // of the picture: 1.7 mm a kilometre away
 
 View pixelView(const Scene& scene, const ProbeRay& ray, const ProbeDirections& d) {

@@ -9,7 +9,7 @@ namespace welkin::reference {
 namespace {
 
 constexpr double kPastFace_steps = 1e-3;
-constexpr double kThinNode = 4;      // measured: halving on costs more bounds than it saves collisions with nothing
+constexpr double kThinNode = 4;      // measured on two rays of pose near: 2 to 8 make no difference to the time, 32 is a quarter slower
 constexpr double kLeakVoxels = 2.5;  // how far beyond its altitudes a source is seen: band limits, and as far as bricks carry it
 
 // The light of a piece is the parabola through its ends and its middle: cloud is band-limited to the voxel, and a piece is one long.

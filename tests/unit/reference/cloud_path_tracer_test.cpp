@@ -33,6 +33,9 @@ PathRay rayOf(double altitude_m, double sun_deg, double view_deg, double azimuth
           {std::sin(sun_deg * kDeg), 0, std::cos(sun_deg * kDeg)}};
 }
 
+// Of the shared light model, into the sun's direction.
+double droplets(const PathRay& ray) { return double(shared::cloudPhase(float(glm::dot(ray.direction, ray.towardsSun)), 1)); }
+
 std::unique_ptr<DensitySource> slabOf(double depth) { return LayeredClouds::slab({1000, 3000, depth / 2000}, kRoot); }
 
 TEST(CloudPathTracer, FurnaceIsWhite) {
@@ -84,16 +87,14 @@ TEST(CloudPathTracer, OneOrderOfASlab) {
     const Medium black = bare(Spectrum(0));
     const CloudPathTracer tracer(black, *slab, kRoot, kFine);
     PathSettings settings;
-    settings.maxOrders = 1, settings.relativeError = 0.02, settings.maxPaths = 60'000;
+    settings.maxOrders = 1, settings.relativeError = 0.005, settings.maxPaths = 200'000;
     const double mu0 = std::cos(50 * kDeg), mu = std::cos(30 * kDeg);
     const PathRay ray = rayOf(5000, 50, 150, 60);
-    const double expected =
-        phase(Droplets{}, glm::dot(ray.direction, ray.towardsSun)) * mu0 / (mu + mu0) * -std::expm1(-depth * (1 / mu + 1 / mu0));
+    const double expected = droplets(ray) * mu0 / (mu + mu0) * -std::expm1(-depth * (1 / mu + 1 / mu0));
     const Estimate up = tracer.estimate(ray, settings);
     EXPECT_NEAR(up.mean.y / expected, 1, kSigmas * up.standardError.y / expected + 2e-3) << depth;
     const PathRay from = rayOf(100, 50, 30, 60);
-    const double through =
-        phase(Droplets{}, glm::dot(from.direction, from.towardsSun)) * mu0 / (mu0 - mu) * (std::exp(-depth / mu0) - std::exp(-depth / mu));
+    const double through = droplets(from) * mu0 / (mu0 - mu) * (std::exp(-depth / mu0) - std::exp(-depth / mu));
     if (depth > 5) continue;  // e^-11 of the light: too few paths meet it
     const Estimate down = tracer.estimate(from, settings);
     EXPECT_NEAR(down.mean.y / through, 1, kSigmas * down.standardError.y / through + 2e-3) << depth;
@@ -116,6 +117,36 @@ TEST(CloudPathTracer, AllOrdersOfASlab) {
     EXPECT_NEAR(down.mean.y / bottom, 1, kSigmas * down.standardError.y / bottom + 3e-3) << depth;
     EXPECT_LT(up.standardError.y, 0.02 * top);
   }
+}
+
+// Forward-peaked droplets, all orders: a layer of air with the same phase function, by the other path tracer.
+TEST(CloudPathTracer, PeakedDropletsAreAsPeakedHaze) {
+  const auto slab = slabOf(2);
+  const Medium medium = bare(Spectrum(0.2));
+  const CloudPathTracer tracer(medium, *slab, kRoot, kFine, {.forwardG = 0.8, .backwardG = -0.4, .forwardShare = 0.7});
+  const Spectrum3 forward{0.7e-3, 0.7e-3, 0.7e-3}, backward{0.3e-3, 0.3e-3, 0.3e-3};
+  const Medium haze = mediumOf(R, 6000,
+                               {{"forward", UniformProfile{1000, 3000}, forward, {}, PhaseType::HenyeyGreenstein, 0.8},
+                                {"backward", UniformProfile{1000, 3000}, backward, {}, PhaseType::HenyeyGreenstein, -0.4}},
+                               {0.2, 0.2, 0.2});
+  const PathTracer other(haze);
+  for (const auto& [h, sun, view, azimuth] : {std::array{5000.0, 40.0, 130.0, 20.0}, std::array{100.0, 50.0, 40.0, 60.0}}) {
+    PathSettings settings;
+    settings.relativeError = 0.015, settings.maxPaths = 60'000;
+    const ProbeResult truth = radiance(haze, other, probeRay(h, sun, view, azimuth), settings);
+    const Estimate e = tracer.estimate(rayOf(h, sun, view, azimuth), settings);
+    const double error = std::hypot(e.standardError.y, truth.standardError[1]);
+    EXPECT_NEAR(e.mean.y / truth.radiance[1], 1, kSigmas * error / truth.radiance[1] + 3e-4) << h;  // quadrature of the other
+    EXPECT_LT(error, 0.04 * truth.radiance[1]);
+  }
+}
+
+TEST(CloudPathTracer, DropletsScatterAllTheyMeet) {
+  double all = 0;
+  const int n = 20'000;
+  for (int i = 0; i < n; ++i) all += 2 * kPi * phase(Droplets{}, -1 + 2 * (i + 0.5) / n) * 2 / n;
+  EXPECT_NEAR(all, 1, 1e-5);  // midpoints: 1.7e-6 at the peak
+  EXPECT_NEAR(phase(Droplets{}, 0.3), double(shared::cloudPhase(0.3f, 1.0f)), 1e-7);
 }
 
 // Where there is as good as no cloud it is the clear sky, by wavelength, in twilight too.

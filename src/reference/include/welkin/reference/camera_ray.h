@@ -25,7 +25,8 @@ CameraRay pixelRay(const shared::CameraBlock& camera, int width, int height, int
 // From anywhere along any unit direction.
 CameraRay rayFrom(glm::dvec3 position_planet, glm::dvec3 direction, double radius_m);
 
-// Where a line is within the cube of edge `size` from `corner` on; empty if it misses it. `far` holds along a face too, on either side of it.
+// Where a line is within the cube of edge `size` from `corner` on; empty if it misses it. `far` holds along a face too, on either side of
+// it.
 Stretch cubeStretch(glm::dvec3 start, glm::dvec3 slope, glm::dvec3 corner, double size);
 
 // Where a ray is between two altitudes, and not behind the ground: from below the base it begins there, from above onto the ground it
