@@ -107,7 +107,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   float cellsAlong = 7.0 * max(abs(walk.dirSteps.x), max(abs(walk.dirSteps.y), abs(walk.dirSteps.z)));  // times 1 / size: cells a metre
   float entryHalf_m = 0.5 * max(segment.near, tree.sampleNear_m) / tree.detail;
   Gathered sum = Gathered(0.0, 0.0, 0.0, 0.0);
-  Node before = Node(0.0, sunSource(phases, 0.0), 1.0);  // the last midpoint; at first: lit through nothing
+  Node before = Node(-1.0, 0.0, 0.0);  // the last midpoint; none at first: a camera may be inside a cloud
   int visit = 0;
   // Every loop ends with its condition, and both sides of an `if` are cheap: software GL runs a loop's body once however it begins,
   // and both sides of every branch.
@@ -172,6 +172,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       SegmentGains g = segmentGains(INTEGRATOR, vec4(node.extinction_per_m, 0.0, 0.0, 0.0), dt);
       gather(sum, ray.transmittance * g.gain.x, node, t + s);
 #if INTEGRATOR == 5
+      if (before.extinction_per_m < 0.0) before = node;
       gather(sum, ray.transmittance * g.gain.y, before, t + s);
       before = node;
 #endif

@@ -319,14 +319,14 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
     std::vector<BrickJob> generate;
     if (haveEdits) {
       generate = std::move(edits.generate);
-      r.apply(std::move(edits), view.position_m, stats);
+      r.apply(std::move(edits), frame.position_m, stats);
     } else {
       FrameEdits nothing = r.last;   // the camera moved: the maps follow
       nothing.nodes.clear();
       nothing.dirty.clear();
       nothing.light.clear();
       nothing.generate.clear();
-      r.apply(std::move(nothing), view.position_m, stats);
+      r.apply(std::move(nothing), frame.position_m, stats);
     }
     r.tree->bind();
     r.clouds->run(frame, mode, r.scene, r.timer);
@@ -365,7 +365,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     FrameEdits edits = r.streamer->take(r.asked.front());
     r.asked.pop_front();
     const std::vector<BrickJob> generate = std::move(edits.generate);
-    r.apply(std::move(edits), view.position_m, stats);
+    r.apply(std::move(edits), frame.position_m, stats);
     batches += r.last.light.empty() ? 0 : 1;
     for (const BrickJob& job : r.last.light) lit[job.brick] = job;
     r.timer.begin("bricks");
@@ -406,8 +406,8 @@ void Renderer::preview(const View& view) {
   const bool timed = std::exchange(r.timer.enabled, false);
   r.beginPicture(frame);
   if (r.plan.clouds) {
-    r.updateTreeBlock(view.position_m);
-    r.tree->updateMaps(view.position_m);
+    r.updateTreeBlock(frame.position_m);
+    r.tree->updateMaps(frame.position_m);
     r.tree->bind();
     r.clouds->preview(r.scene);
   }
