@@ -1,6 +1,10 @@
 // Writing and reading single texels of bricks.
 #include "welkin/shared/tree_block.glsl.h"
-layout(rg16, binding = 0) uniform image3D u_brickImage[BRICK_TEXTURES];
+#ifndef BRICK_FORMAT  // what the tree keeps; rg8 and 255.0 for comparisons (docs/decisions/0012)
+#define BRICK_FORMAT rg16
+#define BRICK_STEPS 65535.0
+#endif
+layout(BRICK_FORMAT, binding = 0) uniform image3D u_brickImage[BRICK_TEXTURES];
 
 void storeTexel(TreeBlock tree, uint brick, uvec3 i, vec2 value) {
 #if BRICK_TEXTURES > 1

@@ -2,7 +2,11 @@
 #include "welkin/shared/camera.glsl.h"
 #include "lib/walk.glsl"
 
-const float kShadowReach = 1.5;     // a node is sampled up to this many times its size from the start of the ray: voxels of 1/10 distance
+#ifndef LIGHT_REACH  // others for comparisons (RenderSettings::light)
+#define LIGHT_REACH 1.5
+#define LIGHT_NODE_SAMPLES 2
+#endif
+const float kShadowReach = LIGHT_REACH;     // a node is sampled up to this many times its size from the start of the ray: voxels of 1/10 distance
 const float kOpaque = 200.0;        // optical depth past which no light is left: exp(-200 / 4) in the widest octave
 const int kMaxVisits = 256;         // well over the worst case of 30 levels of 6 cells
 
@@ -44,9 +48,10 @@ float sunDepth(dvec3 start_planet, float skip_m) {
     float cellsPerStep = 7.0 * levelStepsInverse(at);
     vec3 local = steps * cellsPerStep;
     vec3 slope = walk.dirSteps * cellsPerStep;
-    float half_m = 0.5 * (next - t);
-    float sum = sampleBrick(wordBrick(word), local + slope * (0.5 * half_m)).r + sampleBrick(wordBrick(word), local + slope * (1.5 * half_m)).r;
-    depth += sum * half_m * tree.maxExtinction_per_m;
+    float part_m = (next - t) / float(LIGHT_NODE_SAMPLES);
+    float sum = 0.0;
+    for (int n = 0; n < LIGHT_NODE_SAMPLES; ++n) sum += sampleBrick(wordBrick(word), local + slope * ((float(n) + 0.5) * part_m)).r;
+    depth += sum * part_m * tree.maxExtinction_per_m;
     t = next;
   } while (t < end && depth < kOpaque && visit < kMaxVisits);
   return min(depth, kOpaque);

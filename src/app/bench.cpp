@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <glad/gl.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "idle.h"
 #include "welkin/app/draw.h"
 #include "welkin/app/stop.h"
 #include "welkin/core/files.h"
@@ -26,19 +25,6 @@ constexpr double kCloudy = 0.5;         // opacity from which a pixel counts as 
 constexpr double kSettled_255 = 1;      // RMSE on 0..255 that counts as the settled picture
 constexpr int kStillFrames = 100;       // of a settled tree, in which nothing may be generated or lit
 constexpr int kHistoryFrames = 16;      // one pixel in 16 a frame: until every pixel is marched
-constexpr double kIdleLook_ms = 2;      // how long the process is watched,
-constexpr double kIdleCpu_ms = 0.3;     // and the CPU time below which its threads count as idle: the watching itself costs 0.05
-constexpr int kMostIdleLooks = 5000;    // 10 s: selection takes milliseconds
-
-// Waits until no thread of this process works, so that the CPU clock of the next frame sees that frame alone. The worker's answer to a
-// frame is then there before the next one asks for it.
-void waitUntilIdle() {
-  for (int i = 0; i < kMostIdleLooks; ++i) {
-    const double before = gpu::processCpu_ms();
-    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(kIdleLook_ms));
-    if (gpu::processCpu_ms() - before < kIdleCpu_ms) return;
-  }
-}
 
 struct Series {  // many frames of one kind
   std::map<std::string, std::vector<double>> passCpu_ms, passWall_ms;
@@ -78,6 +64,7 @@ class Bench {
   Bench(const BenchOptions& options, Start start, Size size) : options_(options), start_(std::move(start)), size_(size) {
     settings_.width = size.width;
     settings_.height = size.height;
+    settings_.forced = {"nothing-moves"};  // a frame like the last one is what is measured
   }
 
   Result<void> run() {
@@ -96,7 +83,7 @@ class Bench {
     progress.finish();
     if (stopRequested()) return Error{fmt::format("{}: stopped before all was measured", options_.scene.string())};
     report_["left_out"] = Json::array();
-    for (const auto& left : renderer().plan().leftOut) report_["left_out"].push_back({{"what", left.what}, {"reason", left.reason}});
+    for (const auto& left : renderer().plan().leftOut) report_["left_out"].push_back({{"name", left.name}, {"what", left.what}, {"reason", left.reason}});
     report_["gl_debug_messages"] = stage_.context->debugMessages();
     if (!options_.common.json.empty()) {
       const auto text = report_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -94,6 +94,7 @@ int runProgram(int argc, const char* const* argv) {
   addFly(app, action, commandLine);
   addPlan(app, action);
   addBench(app, action);
+  addConverge(app, action, commandLine);
   addInfo(app, action);
   addCompare(app, action);
   addProbe(app, action);

@@ -14,6 +14,7 @@ void addRender(CLI::App& app, Action& action);
 void addFly(CLI::App& app, Action& action, const std::string& commandLine);
 void addPlan(CLI::App& app, Action& action);
 void addBench(CLI::App& app, Action& action);
+void addConverge(CLI::App& app, Action& action, const std::string& commandLine);
 void addInfo(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addProbe(CLI::App& app, Action& action);

@@ -10,7 +10,7 @@
 namespace welkin::app {
 namespace fs = std::filesystem;
 
-Result<void> writePng(const fs::path& file, const Image8& image, const Texts& texts) {
+Result<std::string> pngBytes(const Image8& image, const Texts& texts) {
   lodepng::State state;
   state.info_raw.colortype = LCT_RGBA;
   state.info_png.color.colortype = LCT_RGB;  // the picture is opaque
@@ -22,12 +22,18 @@ Result<void> writePng(const fs::path& file, const Image8& image, const Texts& te
     const bool plain = std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= 0x20 && c < 0x7f); });
     const unsigned failed = plain ? lodepng_add_text(&state.info_png, key.c_str(), text.c_str())
                                   : lodepng_add_itext(&state.info_png, key.c_str(), "", key.c_str(), text.c_str());
-    if (failed != 0) return Error{fmt::format("{}: {}", file.string(), lodepng_error_text(failed))};
+    if (failed != 0) return Error{lodepng_error_text(failed)};
   }
   std::vector<unsigned char> bytes;
   const unsigned failed = lodepng::encode(bytes, opaque, unsigned(image.width), unsigned(image.height), state);
-  if (failed != 0) return Error{fmt::format("{}: {}", file.string(), lodepng_error_text(failed))};
-  return writeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (failed != 0) return Error{lodepng_error_text(failed)};
+  return std::string(bytes.begin(), bytes.end());
+}
+
+Result<void> writePng(const fs::path& file, const Image8& image, const Texts& texts) {
+  const auto bytes = pngBytes(image, texts);
+  if (!bytes) return Error{fmt::format("{}: {}", file.string(), bytes.error().message)};
+  return writeFile(file, *bytes);
 }
 
 Result<PictureFile> readPng(const fs::path& file) {

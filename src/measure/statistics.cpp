@@ -28,4 +28,8 @@ Summary summarize(const std::vector<double>& values) {
   return s;
 }
 
+Spread spreadOf(const std::vector<double>& values) {
+  return {quantile(values, 0.5), quantile(values, 0.25), quantile(values, 0.75), values.size()};
+}
+
 }  // namespace welkin::measure

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report_json.h"
 #include "welkin/core/units.h"
 
 namespace welkin::measure {
@@ -21,6 +22,8 @@ Summary over(const std::vector<FrameRow>& frames, Get get) {
   for (const auto& row : frames) values.push_back(get(row.stats));
   return summarize(values);
 }
+
+}  // namespace
 
 Json contextJson(const ReportContext& c) {
   Json out;
@@ -54,6 +57,8 @@ Json contextJson(const ReportContext& c) {
                      {"deterministic", c.deterministic}};
   return out;
 }
+
+namespace {
 
 Json countersJson(const FrameCounters& c) {
   return {{"nan_pixels", c.nanPixels},           {"holes", c.holes}, {"marched_pixels", c.marchedPixels},
@@ -187,7 +192,7 @@ std::string TimingReport::json() const {
   out["gl_debug_messages"] = glMessages;
   if (!glFirstMessages.empty()) out["gl_first_messages"] = glFirstMessages;
   out["left_out"] = Json::array();
-  for (const auto& left : leftOut) out["left_out"].push_back({{"what", left.what}, {"reason", left.reason}});
+  for (const auto& left : leftOut) out["left_out"].push_back({{"name", left.name}, {"what", left.what}, {"reason", left.reason}});
   if (!quality.empty()) {
     std::vector<double> rmse;
     for (const auto& row : quality) {

@@ -22,7 +22,7 @@ void main() {
     uvec3 i = uvec3(gl_LocalInvocationID.xy, z);
     uvec3 p = brickSample(corner, job.level, i);
     float value = clamp(density[z] / tree.maxExtinction_per_m, 0.0, 1.0);
-    value = floor(value * 65535.0 + 0.5) / 65535.0;  // what 16 bits keep
+    value = floor(value * BRICK_STEPS + 0.5) / BRICK_STEPS;  // what is kept
     storeTexel(tree, job.brick, i, vec2(value, 0.0));
     low = min(low, value);
     high = max(high, value);

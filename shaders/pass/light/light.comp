@@ -3,13 +3,16 @@
 // interpolated. A far ray's level follows from position and distance alone, so neighbours agree on a face.
 #include "lib/brick_image.glsl"
 #include "lib/shadow.glsl"
+#ifndef LIGHT_NEAR_SAMPLES
+#define LIGHT_NEAR_SAMPLES 3
+#endif
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(std430, binding = WK_BRICK_JOBS_BINDING) readonly buffer Jobs { GpuBrickJob jobs[]; };
 uniform uint u_firstJob;
 
 const float kNearCells = 7.0 / 3.0;  // one spacing of the lattice
-const int kNearSamples = 3;
+const int kNearSamples = LIGHT_NEAR_SAMPLES;
 
 shared float s_far[4][4][4];
 

@@ -13,6 +13,7 @@ layout(std140, binding = WK_AIR_PARAMS_BINDING) uniform AirUniforms { AirBlock u
 #define PIXELS_ALL 0
 #define PIXELS_SIXTEENTH 1
 #define PIXELS_LIST 2
+#define PIXELS_GIVEN 3  // all, and not marched: what the rays bring is given
 #if PIXELS == PIXELS_LIST
 layout(local_size_x = 64) in;
 #else
@@ -21,14 +22,21 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = WK_CAMERA_BINDING) uniform CameraUniforms { CameraBlock camera; };
 layout(std430, binding = WK_COUNTERS_BINDING) buffer CounterBuffer { Counters counters; };
 layout(rgba16f, binding = 0) uniform writeonly image2D u_light;
+#if OPT_AUX
 layout(rg32f, binding = 1) uniform writeonly image2D u_aux;
+#endif
+#if OPT_HISTORY
 layout(r8ui, binding = 3) uniform writeonly uimage2D u_age;
+#endif
 #if PIXELS == PIXELS_SIXTEENTH
 #include "lib/reproject.glsl"
 layout(rgba16f, binding = 2) uniform writeonly image2D u_change;
 #endif
 #if PIXELS == PIXELS_LIST
 layout(std430, binding = WK_PIXELS_BINDING) readonly buffer PixelList { uint groups, one, one_, count, pixels[]; };
+#endif
+#if PIXELS == PIXELS_GIVEN
+layout(std430, binding = WK_PIXELS_BINDING) readonly buffer GivenClouds { CloudWeights given[]; };
 #endif
 uniform ivec2 u_size;
 uniform ivec2 u_offset;   // which pixel of each 4 x 4
@@ -81,7 +89,12 @@ void main() {
   Ray view = cameraRay(camera, ndc);
   dvec3 position = xyz(camera.position);
   CloudPhases phases = cloudPhases(dot(view.dir, tree.sunDir.xyz));
+#if PIXELS == PIXELS_GIVEN
+  CloudWeights weights = given[pixel.y * u_size.x + pixel.x];
+  CloudRay cloud = CloudRay(weights.sun, weights.sky, weights.ground, weights.transmittance, weights.distance_m, 0u, 0u, false);
+#else
   CloudRay cloud = marchClouds(position, camera.position.w, camera.up.w, camera.forward.w, view.dir, view.ground_m, phases);
+#endif
   vec3 light = vec3(0.0);
   if (cloud.transmittance < 1.0) {
     CloudColours colours = coloursAt(position + dvec3(view.dir) * double(cloud.distance_m));
@@ -89,11 +102,17 @@ void main() {
     light = mix(light, vec3(kBrightest), greaterThan(light, vec3(kBrightest)));  // a NaN stays one
   }
   float shadow = 1.0;
+#if OPT_GROUND
   if (view.ground_m >= 0.0 && cloud.transmittance > 0.0 && tree.sunDir.w > 0.0)
     shadow = cloudShadow(sunDepth(position + dvec3(view.dir) * double(view.ground_m), 0.0));
+#endif
   imageStore(u_light, pixel, vec4(light, cloud.transmittance));
+#if OPT_AUX
   imageStore(u_aux, pixel, vec4(cloud.distance_m, shadow, 0.0, 0.0));
+#endif
+#if OPT_HISTORY
   imageStore(u_age, pixel, uvec4(0u));
+#endif
 #if PIXELS == PIXELS_SIXTEENTH
   History history = findHistory(pixel, view.dir, u_size);
   history.still = history.still || !history.valid;  // without history: against what was here, so that a great change is noticed

@@ -1,6 +1,7 @@
 #include "render/bricks/brick_passes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -23,7 +24,8 @@ std::uint64_t BrickPasses::bytes(const DensitySource& source) {
          std::max<std::size_t>(source.shaderParams().size() * 4, 16);
 }
 
-Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, bool sun) {
+Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, const FramePlan& plan,
+                                        double light) {
   BrickPasses passes;
   auto jobs = gpu::Buffer::create(account, "brick jobs", kSlots * kBatch * sizeof(shared::GpuBrickJob));
   if (!jobs) return jobs.error();
@@ -42,12 +44,20 @@ Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const Densi
   }
   gpu::Defines defines = tree.defines();
   defines.emplace_back("SOURCE_SHADER", source.shader());
+  defines.emplace_back("ONE_LAYER", plan.oneLayer ? "1" : "0");
   auto generate = gpu::Program::compute("pass/bricks/generate.comp", defines);
   if (!generate) return generate.error();
-  if (sun) {
-    auto light = gpu::Program::compute("pass/light/light.comp", tree.defines());
-    if (!light) return light.error();
-    passes.light_ = std::move(*light);
+  if (plan.sun) {
+    gpu::Defines lightDefines = tree.defines();
+    if (light != 1) {
+      const auto samples = [light](int n) { return std::to_string(std::max(1, int(std::lround(light * n)))); };
+      lightDefines.insert(lightDefines.end(), {{"LIGHT_REACH", std::to_string(1.5 * light)},
+                                               {"LIGHT_NEAR_SAMPLES", samples(3)},
+                                               {"LIGHT_NODE_SAMPLES", samples(2)}});
+    }
+    auto program = gpu::Program::compute("pass/light/light.comp", lightDefines);
+    if (!program) return program.error();
+    passes.light_ = std::move(*program);
   }
   passes.jobs_ = std::move(*jobs);
   passes.results_ = std::move(*results);

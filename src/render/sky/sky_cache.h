@@ -1,6 +1,5 @@
 #pragma once
-// Fields of diffuse light on disk, so that a scene's second start does not make them again. $WELKIN_CACHE, else $XDG_CACHE_HOME/welkin,
-// else ~/.cache/welkin; WELKIN_CACHE set to nothing: no cache. At most kCachedFields files, the least recently written go.
+// Fields of diffuse light on disk (core/cache.h), so that a scene's second start does not make them again.
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>

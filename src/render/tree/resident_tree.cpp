@@ -11,7 +11,7 @@ namespace welkin {
 using shared::kMapEdge;
 
 namespace {
-constexpr std::uint64_t kLayerBytes = std::uint64_t{shared::kBricksPerLayer} * 512 * 4;  // RG16
+std::uint64_t layerBytes(int brickBits) { return std::uint64_t{shared::kBricksPerLayer} * 512 * 2 * std::uint64_t(brickBits / 8); }  // two numbers a sample
 constexpr std::uint64_t kMapBytes = std::uint64_t{shared::kMapCells} * sizeof(shared::NodeWords);
 constexpr std::uint64_t kGroupBytes = 64;
 // Non-empty children of a split node are two to six of eight; three groups to four bricks leaves room for the sparse end.
@@ -25,13 +25,14 @@ std::uint64_t fixedBytes(std::uint32_t depth) {
 }
 }  // namespace
 
-TreeLayout TreeLayout::fit(std::uint64_t bytes, std::uint32_t depth) {
+TreeLayout TreeLayout::fit(std::uint64_t bytes, std::uint32_t depth, int brickBits) {
   TreeLayout layout;
+  layout.brickBits = brickBits;
   layout.depth = depth;
   layout.mapBase = mapBaseOf(depth);
   const std::uint64_t fixed = fixedBytes(depth);
   if (bytes < fixed) return layout;
-  const auto layers = static_cast<std::uint32_t>(std::min<std::uint64_t>((bytes - fixed) / (kLayerBytes + kGroupsPerLayer * kGroupBytes),
+  const auto layers = static_cast<std::uint32_t>(std::min<std::uint64_t>((bytes - fixed) / (layerBytes(brickBits) + kGroupsPerLayer * kGroupBytes),
                                                                          (shared::kBrickMask + 1) / shared::kBricksPerLayer));
   if (layers == 0) return layout;
   layout.textures = (layers + shared::kAtlasLayers - 1) / shared::kAtlasLayers;
@@ -42,10 +43,10 @@ TreeLayout TreeLayout::fit(std::uint64_t bytes, std::uint32_t depth) {
 }
 
 std::uint64_t TreeLayout::bytes() const {
-  return fixedBytes(depth) + std::uint64_t{textures} * layersPerTexture * kLayerBytes + groups * kGroupBytes;
+  return fixedBytes(depth) + std::uint64_t{textures} * layersPerTexture * layerBytes(brickBits) + groups * kGroupBytes;
 }
 
-std::uint64_t TreeLayout::leastBytes(std::uint32_t depth) { return fixedBytes(depth) + kLayerBytes + kGroupsPerLayer * kGroupBytes; }
+std::uint64_t TreeLayout::leastBytes(std::uint32_t depth) { return fixedBytes(depth) + layerBytes(16) + kGroupsPerLayer * kGroupBytes; }
 
 ResidentTree::ResidentTree(ResidentTree&& o) noexcept
     : layout_(o.layout_), root_(o.root_), words_(std::move(o.words_)), block_(std::move(o.block_)), mapJobs_(std::move(o.mapJobs_)),
@@ -72,7 +73,7 @@ Result<ResidentTree> ResidentTree::create(gpu::MemoryAccount& account, const Tre
   auto jobs = gpu::Buffer::create(account, "map jobs", levels * 4096 * kJobBytes);
   if (!jobs) return jobs.error();
   for (std::uint32_t i = 0; i < layout.textures; ++i) {
-    auto bricks = gpu::Texture::create(account, "bricks", {.target = GL_TEXTURE_3D, .format = GL_RG16, .width = int(shared::kAtlasX * 8),
+    auto bricks = gpu::Texture::create(account, "bricks", {.target = GL_TEXTURE_3D, .format = GLenum(layout.brickBits == 8 ? GL_RG8 : GL_RG16), .width = int(shared::kAtlasX * 8),
                                                            .height = int(shared::kAtlasY * 8), .depth = int(layout.layersPerTexture * 8)});
     if (!bricks) return bricks.error();
     tree.bricks_.push_back(std::move(*bricks));

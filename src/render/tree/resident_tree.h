@@ -7,6 +7,7 @@
 
 #include "welkin/gpu/program.h"
 #include "welkin/gpu/resources.h"
+#include "welkin/octree/tree_data.h"
 #include "welkin/physics/root_frame.h"
 #include "welkin/shared/tree_block.glsl.h"
 #include "welkin/stream/streamer.h"
@@ -18,8 +19,9 @@ struct TreeLayout {
   std::uint32_t depth = 16, mapBase = 6;
   std::uint32_t textures = 1, layersPerTexture = 1;  // of 1024 bricks, 2 MiB
   std::uint32_t bricks = 0, groups = 0;
+  int brickBits = 16;  // of each number of a brick, 8 or 16
   // What is left after `bytes`-sized other things; bricks == 0: not enough for a single layer.
-  static TreeLayout fit(std::uint64_t bytes, std::uint32_t depth);
+  static TreeLayout fit(std::uint64_t bytes, std::uint32_t depth, int brickBits = 16);
   std::uint64_t bytes() const;
   static std::uint64_t leastBytes(std::uint32_t depth);
 };
@@ -36,8 +38,13 @@ class ResidentTree {
   void updateBlock(const shared::TreeBlock& block);          // detail, band, sun … ; the layout's fields are filled in here
   void bind() const;                                         // nodes, maps, bricks, block
   void bindBrickImages(GLenum access) const;
+  TreeData readBack() const;                                 // waits for the GPU
   const TreeLayout& layout() const { return layout_; }
-  gpu::Defines defines() const { return {{"BRICK_TEXTURES", std::to_string(layout_.textures)}}; }
+  gpu::Defines defines() const {
+    gpu::Defines all{{"BRICK_TEXTURES", std::to_string(layout_.textures)}};
+    if (layout_.brickBits == 8) all.insert(all.end(), {{"BRICK_FORMAT", "rg8"}, {"BRICK_STEPS", "255.0"}});
+    return all;
+  }
   std::uint32_t mapCellsUpdated() const { return mapCells_; }  // by the last updateMaps
 
  private:

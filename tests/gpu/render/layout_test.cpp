@@ -10,6 +10,7 @@
 #include "welkin/shared/camera.glsl.h"
 #include "welkin/shared/cloud_source.glsl.h"
 #include "welkin/shared/cloud_sphere.glsl.h"
+#include "welkin/shared/cloud_weights.glsl.h"
 #include "welkin/shared/counters.glsl.h"
 #include "welkin/shared/exposure.glsl.h"
 #include "welkin/shared/tree_block.glsl.h"
@@ -75,6 +76,11 @@ const std::map<std::string, BlockLayout>& blocks() {
          {"pixels[0]", sizeof(PixelListHead)}},
         4,
         "pixels[0]"}},
+      {"GivenClouds",
+       {{AT("given[0].", CloudWeights, sun), AT("given[0].", CloudWeights, sky), AT("given[0].", CloudWeights, ground),
+         AT("given[0].", CloudWeights, transmittance), AT("given[0].", CloudWeights, distance_m)},
+        sizeof(CloudWeights),
+        "given[0].sun"}},
       {"SourceParams",
        {{AT("sourceHeader.", CloudHeader, layerCount),
          AT("sourceHeader.", CloudHeader, coverMips),

@@ -74,7 +74,7 @@ TEST(Options, exposureAndToneCurve) {
 TEST(CommandLine, helpHasAnExampleEverywhere) {
   EXPECT_EQ(run({"--help"}).exit, 0);
   EXPECT_THAT(run({"--version"}).out, HasSubstr("welkin 0."));
-  for (const char* command : {"render", "fly", "bench", "plan", "info", "compare", "probe"}) {
+  for (const char* command : {"render", "fly", "bench", "converge", "plan", "info", "compare", "probe"}) {
     const Ran r = run({command, "--help"});
     EXPECT_EQ(r.exit, 0) << command;
     EXPECT_THAT(r.out, HasSubstr(std::string("welkin ") + command)) << command;

@@ -39,6 +39,8 @@ Result<PictureState> stateFromTexts(const Texts& texts, const std::filesystem::p
 // working folder too, and the scene corrected. The error names the first file that is missing or different.
 Result<void> findData(PictureState& state, const std::filesystem::path& picture);
 
+Result<std::string> pngBytes(const Image8& image, const Texts& texts);  // what writePng writes
+
 // All or nothing: a temporary beside the file, then a rename. `texts` may be empty.
 Result<void> writePng(const std::filesystem::path& file, const Image8& image, const Texts& texts);
 Result<void> writeExr(const std::filesystem::path& file, const ImageF& image, const Texts& texts);  // half, ZIP, linear R G B A

@@ -29,6 +29,16 @@ Result<ImageError> compare(const Image8& a, const Image8& b);
 // Linear pictures: display numbers after exposure (stops) and the sRGB curve, clamped to 0..1.
 Result<ImageError> compare(const ImageF& a, const ImageF& b, double exposure_ev = 0);
 
+// Linear pictures as the renderer shows them, through base exposure and tone curve, before dither and rounding to 8 bits: differences far
+// below 1/255 still count as what they are. `first` is the truth that relativeRmse is relative to.
+Result<ImageError> compareShown(const ImageF& first, const ImageF& second, ToneCurve curve, double exposure_ev);
+// The greatest |difference| of a pixel's three colours so shown, 0..255, top row first. Sizes must be equal.
+std::vector<float> shownDifference(const ImageF& first, const ImageF& second, ToneCurve curve, double exposure_ev);
+
+// Errors of one setting in several pictures of one size, as if they were one: squares and shares are averaged; p99, p999 and max are the
+// greatest. Linear errors are averaged in square, each relative to its own picture.
+ImageError joined(const std::vector<ImageError>& errors);
+
 // The display values of a linear picture: exposure, clamp, sRGB curve (IEC 61966-2-1), rounded to 8 bits. No tone curve.
 Image8 toDisplay(const ImageF& image, double exposure_ev);
 

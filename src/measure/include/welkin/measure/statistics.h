@@ -12,6 +12,12 @@ struct Summary {
 
 Summary summarize(const std::vector<double>& values);
 
+struct Spread {  // of repetitions: the median, and the quartiles that half of them lie between
+  double median = 0, p25 = 0, p75 = 0;
+  std::size_t n = 0;
+};
+Spread spreadOf(const std::vector<double>& values);
+
 // Quantile q in 0..1 of values (any order), linear between ranks (Hyndman and Fan, type 7). 0 for an empty list.
 double quantile(std::vector<double> values, double q);
 

@@ -4,6 +4,8 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,8 +13,11 @@
 #include "welkin/gpu/context.h"
 #include "welkin/gpu/memory.h"
 #include "welkin/gpu/timer.h"
+#include "welkin/octree/tree_data.h"
 #include "welkin/physics/scene.h"
 #include "welkin/render/frame_plan.h"
+#include "welkin/shared/camera.glsl.h"
+#include "welkin/shared/cloud_weights.glsl.h"
 #include "welkin/stream/streamer.h"
 
 namespace welkin {
@@ -23,8 +28,13 @@ struct RenderSettings {
   std::uint32_t workerJitterSeed = 0;   // tests of determinism: random delays in the worker
   bool reprojection = true;             // march one pixel in 16 a frame
   double sky_ms = 8;                    // a frame's work on the light of a changed air (Renderer::setAir); at least one slice of it
+  int brickBits = 16;                   // of each number of a brick, 8 or 16: 8 is for comparisons (docs/decisions/0012)
+  double light = 1;                     // reach and samples of the rays to the sun; others than 1 for comparisons
   bool timing = true;                   // per-pass times (on software GL: glFinish after each pass)
   bool waitForEdits = true;             // true: edits of frame k apply at frame k + 2, whatever it takes (deterministic); false: when ready
+  std::optional<View> onlyView = {};    // one picture, of this view: frames march every pixel, and of other views would lack parts
+  bool linear = true;                   // radiance() will be read; else it may be empty
+  std::set<std::string> forced = {};    // reasons to leave something out that are not to hold (LeftOut::name)
 };
 
 // What the frame's march and the checks counted, whole picture.
@@ -46,6 +56,7 @@ struct FrameStats {
   std::uint64_t bytesUsed = 0, bytesBudget = 0, frameTargetBytes = 0;
   double sampleDetail = 0;
   double exposure_ev = 0;  // at which the picture is shown: of the view, of the scene, or metered
+  std::string leftOut;     // why all but the background was left out of this frame, or all of it (LeftOut::name); empty: it was drawn
   double skyProgress = 1;  // of the light of a changed air (Renderer::setAir), 0..1; 1: it is shown
 };
 
@@ -81,9 +92,15 @@ class Renderer {
   // Draws this view from the tree as it is now, every pixel marched; no edit is applied; history, frame count and metered exposure
   // stay. For comparing: image() and radiance() then return this picture.
   void preview(const View& view);
+  // For the reference (docs/reference.md): the view's rays, the tree as preview(view) would see it (clouds only), and preview() with what
+  // each pixel's ray through the clouds brings given, width * height from the top row, instead of marched.
+  shared::CameraBlock camera(const View& view) const;
+  TreeData tree(const View& view);
+  Result<void> drawWith(const View& view, std::span<const shared::CloudWeights> clouds);
   Image8 image() const;
-  ImageF radiance() const;
-  const FramePlan& plan() const;
+  ImageF radiance() const;  // without pixels if nobody was to read it (RenderSettings::linear)
+  double shownDetail(const View& view) const;  // nodes a radian past which voxels are finer than this view's pixels
+  const FramePlan& plan() const;  // of all frames; FrameStats::leftOut says what one frame does without
   const Scene& scene() const;
   const gpu::MemoryAccount& memory() const;
   std::vector<std::string> notes() const;  // one line each: what a user should know (data that was missing, ...)

@@ -1,0 +1,338 @@
+#include "welkin/app/converge.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "converge_trees.h"
+#include "idle.h"
+#include "welkin/app/draw.h"
+#include "welkin/app/flight.h"
+#include "welkin/app/stop.h"
+#include "welkin/core/files.h"
+#include "welkin/core/log.h"
+#include "welkin/core/progress.h"
+#include "welkin/core/units.h"
+#include "welkin/measure/flip.h"
+
+namespace welkin::app {
+namespace {
+
+using measure::ConvergeRow, measure::ConvergeSetting, measure::Frames;
+
+constexpr int kHistoryFrames = 16;     // one pixel in 16 a frame: until every pixel is marched
+constexpr double kTruthStep = 1 / 8.;  // of the finest step of the sweep,
+constexpr double kTruthMost = 1 / 32.;  // and at most so much of the scene's own
+constexpr double kShowFull_255 = 16;   // difference that is shown as white
+constexpr std::size_t kFromFront = 4;  // pictures of differences, evenly along the front; and the worst
+
+class Convergence {
+ public:
+  Convergence(const ConvergeOptions& options, Poses poses, std::vector<ConvergeSetting> settings)
+      : options_(options), poses_(std::move(poses)), settings_(std::move(settings)) {}
+
+  Result<void> run(Trees& trees, Progress& progress) {
+    trees_ = &trees;
+    progress_ = &progress;
+    for (std::size_t i = 0; i < settings_.size();) {
+      const auto opened = trees.open(settings_[i]);
+      // A preset's smaller budgets may be less than the scene needs; what was asked for by name must work.
+      if (!opened && (!options_.sweep.empty() || i == 0)) return opened;
+      if (!opened) log::warn("{}: left out: {}", settings_[i].name, opened.error().message);
+      if (opened) ++i;
+      else settings_.erase(settings_.begin() + std::ptrdiff_t(i));
+    }
+    works_.resize(settings_.size());
+    truth_ = truthSetting();
+    if (auto made = trees.open(truth_); !made) return made;
+    if (auto fixed = fixExposure(); !fixed) return fixed;
+    for (std::size_t pose = 0; pose < poses_.views.size(); ++pose)
+      if (auto done = measurePose(pose); !done) return done;
+    return {};
+  }
+
+  measure::ConvergeReport report() {
+    measure::ConvergeReport out;
+    for (std::size_t i = 0; i < settings_.size(); ++i) out.rows.push_back(row(i));
+    addBest(out.rows);
+    out.view = poses_.name;
+    out.poses = int(poses_.views.size());
+    out.repetitions = options_.repetitions;
+    out.clock = trees_->software() ? "CPU of the process, all cores added, of all passes of a frame" : "GPU, of all passes of a frame";
+    out.truth.kind = kTruthNames[std::size_t(options_.truth)];
+    out.truth.description = fmt::format("{}, every pixel marched", truth_.name);
+    out.truth.tolerance_255 = measure::joined(truthErrors_).rmse_255;
+    addPictures(out);
+    return out;
+  }
+
+ private:
+  struct Work {  // what is known of one setting so far
+    std::vector<double> time_ms;
+    std::map<std::string, std::vector<double>> passes_ms;
+    std::vector<measure::ImageError> errors;
+    std::vector<Image8> pictures;  // 8 bits, by pose: what best_rmse_255 is of
+    Image8 difference;             // from the truth, of the first pose
+    FrameStats stats;
+  };
+
+  // The finest tree of all, marched far finer than any setting.
+  ConvergeSetting truthSetting() const {
+    ConvergeSetting t = settings_.front();
+    double step = poses_.scene.quality.step * kTruthMost;
+    for (const auto& s : settings_) {
+      t.quality.budget_bytes = std::max(t.quality.budget_bytes, s.quality.budget_bytes);
+      t.quality.depth = std::max(t.quality.depth, s.quality.depth);
+      t.light = std::max(t.light, s.light);
+      t.brickBits = std::max(t.brickBits, s.brickBits);
+      step = std::min(step, s.quality.step * kTruthStep);
+    }
+    t.quality.integrator = Integrator::ExponentialLinear;
+    t.quality.stepRule = StepRule::Optical;
+    t.quality.skipEmpty = true;
+    t.quality.detail = 0;
+    t.quality.step = step;
+    t.frames = Frames::Full;
+    t.name = fmt::format("{}, depth {}, {} {} {:g}", bytesText(t.quality.budget_bytes), t.quality.depth,
+                         kIntegratorNames[std::size_t(t.quality.integrator)], kStepRuleNames[std::size_t(t.quality.stepRule)], step);
+    return t;
+  }
+
+  // A metered exposure would hide a part of the error: all pictures get that of the first pose's truth.
+  Result<void> fixExposure() {
+    const View& first = poses_.views.front();
+    double ev = 0;
+    if (poses_.scene.output.exposure_ev || first.exposure_ev) {
+      ev = first.exposure_ev.value_or(poses_.scene.output.exposure_ev.value_or(0));
+    } else {
+      if (auto settled = trees_->settle(first, [](double) { return !stopRequested(); }); !settled) return settled;
+      ev = trees_->of(truth_).frame(first, FrameMode::Full).exposure_ev;
+    }
+    const auto fix = [ev](View& view) { view.exposure_ev = view.exposure_ev.value_or(ev); };
+    for (auto& view : poses_.views) fix(view);
+    for (auto& frames : poses_.before)
+      for (auto& view : frames) fix(view);
+    return {};
+  }
+
+  Result<void> measurePose(std::size_t pose) {
+    const View& view = poses_.views[pose];
+    ev_ = *view.exposure_ev;
+    const double rounds = options_.repetitions + 2.0;
+    const auto share = [&](double part) { return (double(pose) + part) / double(poses_.views.size()); };
+    if (auto settled = trees_->settle(view, [&](double f) { return update(share(f / rounds), "settling"); }); !settled) return settled;
+    if (auto drawn = drawTruth(view, pose); !drawn) return drawn;
+    // Round 0 compiles shaders, warms caches and gives the pictures; the others are timed. They go there and back, so that no setting
+    // always follows the same one and drift favours none.
+    for (int round = 0; round <= options_.repetitions; ++round) {
+      for (std::size_t n = 0; n < settings_.size(); ++n) {
+        const std::size_t i = round % 2 == 0 ? n : settings_.size() - 1 - n;
+        const double part = (1 + round + double(n) / double(settings_.size())) / rounds;
+        if (!update(share(part), settings_[i].name)) return Error{fmt::format("{}: stopped before all was measured", options_.input.string())};
+        const bool once = settings_[i].frames == Frames::Moving;
+        if (once && round > 0) continue;
+        if (auto done = once ? fly(i, pose) : still(i, view, pose, round); !done) return done;
+      }
+    }
+    return {};
+  }
+
+  bool update(double fraction, const std::string& note) {
+    progress_->update(fraction, note);
+    return !stopRequested();
+  }
+
+  Result<void> drawTruth(const View& view, std::size_t pose) {
+    Renderer& renderer = trees_->of(truth_);
+    for (const double step : {2.0, 1.0}) {  // the difference of the two bounds what is left in the finer: the march is of first order at least
+      ConvergeSetting s = truth_;
+      s.quality.step *= step;
+      if (auto used = renderer.setMarch(s.quality); !used) return used;
+      renderer.preview(view);
+      const ImageF coarser = std::move(truthLight_);
+      truthLight_ = renderer.radiance();
+      if (step > 1) continue;
+      const auto error = measure::compareShown(truthLight_, coarser, curve(), ev_);
+      if (!error) return error.error();
+      truthErrors_.push_back(*error);
+    }
+    truthImage_ = renderer.image();
+    if (pose == 0) firstTruth_ = truthImage_;
+    return {};
+  }
+
+  Result<void> still(std::size_t i, const View& view, std::size_t pose, int round) {
+    const ConvergeSetting& s = settings_[i];
+    Renderer& renderer = trees_->of(s);
+    if (auto used = renderer.setMarch(s.quality); !used) return used;
+    const bool full = s.frames == Frames::Full;
+    if (!full) {
+      renderer.frame(view, FrameMode::Full);  // another setting's history is gone
+      for (int k = 0; k < kHistoryFrames; ++k) renderer.frame(view);
+    }
+    if (trees_->software()) waitUntilIdle();
+    const FrameStats stats = renderer.frame(view, full ? FrameMode::Full : FrameMode::Reprojected);
+    if (round > 0) {
+      addTimes(works_[i], stats);
+      return {};
+    }
+    return keepPicture(works_[i], renderer, stats, pose);
+  }
+
+  // The frames of the path before this one, beginning with a settled tree and a full picture.
+  Result<void> fly(std::size_t i, std::size_t pose) {
+    const ConvergeSetting& s = settings_[i];
+    Renderer& renderer = trees_->of(s);
+    if (auto used = renderer.setMarch(s.quality); !used) return used;
+    const auto& before = poses_.before[pose];
+    renderer.settle(before.front());
+    FrameStats stats = renderer.frame(before.front(), FrameMode::Full);
+    for (std::size_t k = 1; k <= before.size(); ++k) {
+      if (trees_->software()) waitUntilIdle();
+      stats = renderer.frame(k < before.size() ? before[k] : poses_.views[pose]);
+      addTimes(works_[i], stats);
+    }
+    if (auto kept = keepPicture(works_[i], renderer, stats, pose); !kept) return kept;
+    renderer.settle(poses_.views[pose]);
+    return {};
+  }
+
+  Result<void> keepPicture(Work& work, Renderer& renderer, const FrameStats& stats, std::size_t pose) {
+    const ImageF light = renderer.radiance();
+    const Image8 image = renderer.image();
+    auto error = measure::compareShown(truthLight_, light, curve(), ev_);
+    if (!error) return error.error();
+    const auto flip = measure::flipDifference(truthImage_, image);
+    if (!flip) return flip.error();
+    error->flip = flip->mean;
+    work.errors.push_back(*error);
+    work.pictures.push_back(image);
+    work.stats = stats;
+    if (pose == 0) {
+      auto difference = measure::shownDifference(truthLight_, light, curve(), ev_);
+      for (float& d : difference) d = float(d / kShowFull_255);
+      work.difference = measure::flipPicture({image.width, image.height, std::move(difference), 0});
+    }
+    return {};
+  }
+
+  void addTimes(Work& work, const FrameStats& stats) const {
+    double sum = 0;
+    for (const auto& [name, time] : stats.passes) {
+      const double ms = trees_->software() ? time.cpu_ms : time.wall_ms;
+      work.passes_ms[name].push_back(ms);
+      sum += ms;
+    }
+    work.time_ms.push_back(sum);
+  }
+
+  ConvergeRow row(std::size_t i) const {
+    const Work& work = works_[i];
+    ConvergeRow out;
+    out.setting = settings_[i];
+    out.time_ms = measure::spreadOf(work.time_ms);
+    for (const auto& [name, times] : work.passes_ms) out.passes_ms[name] = measure::spreadOf(times);
+    out.bytes = work.stats.bytesUsed;
+    out.samples = work.stats.counters.samples;
+    out.cells = work.stats.counters.cells;
+    out.residency = work.stats.residency;
+    const FrameStats& settled = trees_->settled(settings_[i]);
+    out.settle_ms = trees_->software() ? settled.cpu_ms : settled.wall_ms;
+    if (const auto light = settled.passes.find("light"); light != settled.passes.end())
+      out.light_ms = trees_->software() ? light->second.cpu_ms : light->second.wall_ms;
+    out.error = measure::joined(work.errors);
+    return out;
+  }
+
+  // The thesis compares with its own best picture: here the finest step on the greatest budget with the same integrator and rule.
+  void addBest(std::vector<ConvergeRow>& rows) const {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Quality& q = settings_[i].quality;
+      std::size_t best = i;
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        const Quality &other = settings_[k].quality, &b = settings_[best].quality;
+        if (other.integrator != q.integrator || other.stepRule != q.stepRule || other.skipEmpty != q.skipEmpty) continue;
+        const bool finer = other.budget_bytes != b.budget_bytes ? other.budget_bytes > b.budget_bytes : other.step < b.step;
+        if (finer) best = k;
+      }
+      std::vector<measure::ImageError> errors;
+      for (std::size_t pose = 0; pose < works_[i].pictures.size(); ++pose)
+        if (auto error = measure::compare(works_[best].pictures[pose], works_[i].pictures[pose])) errors.push_back(*error);
+      rows[i].best_rmse_255 = measure::joined(errors).rmse_255;
+    }
+  }
+
+  void addPictures(measure::ConvergeReport& out) const {
+    if (auto png = pngBytes(firstTruth_, {})) out.pictures.push_back({"truth", out.truth.description, *png});
+    std::vector<std::string> names;
+    const auto add = [&names](const std::string& name) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    const auto front = measure::paretoFront(out.rows);
+    const auto worst = std::max_element(out.rows.begin(), out.rows.end(),
+                                        [](const auto& a, const auto& b) { return a.error.rmse_255 < b.error.rmse_255; });
+    if (worst != out.rows.end()) add(worst->setting.name);
+    for (std::size_t i = 0; i < kFromFront && !front.empty(); ++i) add(front[i * (front.size() - 1) / (kFromFront - 1)]);
+    for (const auto& name : names) {
+      for (std::size_t i = 0; i < out.rows.size(); ++i) {
+        if (out.rows[i].setting.name != name) continue;
+        const auto& r = out.rows[i];
+        if (auto png = pngBytes(works_[i].difference, {}))
+          out.pictures.push_back({name, fmt::format("RMSE {:.3f}, {:.1f} ms; black: none, palest: {:g}/255 and more", r.error.rmse_255, r.time_ms.median,
+                                                    kShowFull_255), *png});
+      }
+    }
+  }
+
+  ToneCurve curve() const { return poses_.scene.output.toneCurve; }
+
+  const ConvergeOptions& options_;
+  Poses poses_;
+  std::vector<ConvergeSetting> settings_;
+  ConvergeSetting truth_;
+  Trees* trees_ = nullptr;
+  Progress* progress_ = nullptr;
+  std::vector<Work> works_;
+  double ev_ = 0;  // of the pose
+  ImageF truthLight_;
+  Image8 truthImage_, firstTruth_;
+  std::vector<measure::ImageError> truthErrors_;  // of each pose: the truth at twice its step
+};
+
+}  // namespace
+
+Result<void> converge(const ConvergeOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  auto poses = loadPoses(options);
+  if (!poses) return poses.error();
+  for (const auto& file : {options.common.json, options.html}) {
+    if (file.empty()) continue;
+    if (auto writable = checkWritableFile(file); !writable) return writable;
+  }
+  listenForStop();
+  Progress progress("converge", options.common.quiet);
+  progress.update(0);
+  Trees trees(poses->scene, poses->size, options.common.gpu);
+  if (auto opened = trees.openContext(); !opened) return opened;
+  auto settings = chooseSettings(options, *poses, trees);
+  if (!settings) return settings.error();
+  Convergence run(options, *poses, *settings);
+  if (auto done = run.run(trees, progress); !done) return done;
+  progress.finish();
+
+  measure::ConvergeReport report = run.report();
+  report.context = describeRun(poses->scene, poses->size);
+  report.context.command = options.command;
+  describeDevice(trees.context(), report.context);
+  if (options.preset == "thesis" && options.sweep.empty()) report.tables = thesisTables(report.rows);
+  report.notes = trees.notes();
+  report.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!options.common.json.empty())
+    if (auto written = writeFile(options.common.json, report.json() + "\n"); !written) return written;
+  if (!options.html.empty())
+    if (auto written = writeFile(options.html, report.html()); !written) return written;
+  fmt::print("{}", report.table());
+  return {};
+}
+
+}  // namespace welkin::app
