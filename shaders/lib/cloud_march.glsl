@@ -219,9 +219,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       ray.samples += last * perSample;
       SegmentGains g = segmentGains(INTEGRATOR, vec4(nodes[0].extinction_per_m, nodes[1].extinction_per_m, nodes[2].extinction_per_m, nodes[3].extinction_per_m), length_m);
 #if INTEGRATOR == 6
-      vec4 difference = g.gain - g.coarse;
-      float error = ray.transmittance * max(abs(difference.x + difference.y + difference.z),
-                                            abs(difference.x * nodes[0].sky + difference.y * nodes[1].sky + difference.z * nodes[2].sky));
+      float error = ray.transmittance * segmentError(g, vec4(nodes[0].extinction_per_m, nodes[1].extinction_per_m, nodes[2].extinction_per_m, 0.0),
+                                                     vec4(nodes[0].sky, nodes[1].sky, nodes[2].sky, 0.0));
       bool taken = error <= allowed || length_m <= least;
       dt = max(length_m * clamp(0.9 * pow(allowed / max(error, 1e-12), 0.33333333), 0.25, 4.0), least);
 #else

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "commands.h"
-#include "stress_map.h"
 #include "welkin/app/stop.h"
+#include "welkin/app/stress_map.h"
 #include "welkin/core/files.h"
 #include "welkin/core/progress.h"
 #include "welkin/measure/stress.h"

@@ -1,4 +1,4 @@
-#include "stress_map.h"
+#include "welkin/app/stress_map.h"
 
 #include <algorithm>
 #include <array>
