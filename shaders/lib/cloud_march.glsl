@@ -116,7 +116,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   float cellsAlong = 7.0 * max(abs(walk.dirSteps.x), max(abs(walk.dirSteps.y), abs(walk.dirSteps.z)));  // times 1 / size: cells a metre
   float entryHalf_m = 0.5 * max(segment.near, tree.sampleNear_m) / tree.detail;
   Gathered sum = Gathered(0.0, 0.0, 0.0, 0.0);
-  Node before = Node(-1.0, 0.0, 0.0);  // the last midpoint; none at first: a camera may be inside a cloud
+  // The last midpoint. At first: from above lit through nothing; else none, for a camera may be inside a cloud, or see its dark side first.
+  Node before = altitude > double(tree.bandTop_m) ? Node(0.0, sunSource(phases, 0.0), 1.0) : Node(-1.0, 0.0, 0.0);
   float alongUp_m = float(dot(position, dvec3(dir))), shellRadius_m = float(radius);  // the ray's zenith cosine at t is (alongUp + near + t) / r
   float stride = 1.0;
   int visit = 0;
