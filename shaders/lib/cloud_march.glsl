@@ -116,7 +116,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   float cellsAlong = 7.0 * max(abs(walk.dirSteps.x), max(abs(walk.dirSteps.y), abs(walk.dirSteps.z)));  // times 1 / size: cells a metre
   float entryHalf_m = 0.5 * max(segment.near, tree.sampleNear_m) / tree.detail;
   Gathered sum = Gathered(0.0, 0.0, 0.0, 0.0);
-  Node before = Node(0.0, sunSource(phases, 0.0), 1.0);  // the last midpoint; at first: lit through nothing
+  // The last midpoint. At first: from above lit through nothing; else none, for a camera may be inside a cloud, or see its dark side first.
+  Node before = altitude > double(tree.bandTop_m) ? Node(0.0, sunSource(phases, 0.0), 1.0) : Node(-1.0, 0.0, 0.0);
   float alongUp_m = float(dot(position, dvec3(dir))), shellRadius_m = float(radius);  // the ray's zenith cosine at t is (alongUp + near + t) / r
   float stride = 1.0;
   int visit = 0;
@@ -186,6 +187,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       SegmentGains g = segmentGains(INTEGRATOR, vec4(taken ? node.extinction_per_m : 0.0, 0.0, 0.0, 0.0), dt);
       gather(sum, ray.transmittance * g.gain.x, node, t + s);
 #if INTEGRATOR == 5
+      if (taken && before.extinction_per_m < 0.0) before = node;
       gather(sum, ray.transmittance * g.gain.y, before, t + s);
       before.sun = taken ? node.sun : before.sun;
       before.sky = taken ? node.sky : before.sky;
@@ -218,9 +220,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       ray.samples += last * perSample;
       SegmentGains g = segmentGains(INTEGRATOR, vec4(nodes[0].extinction_per_m, nodes[1].extinction_per_m, nodes[2].extinction_per_m, nodes[3].extinction_per_m), length_m);
 #if INTEGRATOR == 6
-      vec4 difference = g.gain - g.coarse;
-      float error = ray.transmittance * max(abs(difference.x + difference.y + difference.z),
-                                            abs(difference.x * nodes[0].sky + difference.y * nodes[1].sky + difference.z * nodes[2].sky));
+      float error = ray.transmittance * segmentError(g, vec4(nodes[0].extinction_per_m, nodes[1].extinction_per_m, nodes[2].extinction_per_m, 0.0),
+                                                     vec4(nodes[0].sky, nodes[1].sky, nodes[2].sky, 0.0));
       bool taken = error <= allowed || length_m <= least;
       dt = max(length_m * clamp(0.9 * pow(allowed / max(error, 1e-12), 0.33333333), 0.25, 4.0), least);
 #else

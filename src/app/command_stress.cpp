@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "welkin/app/stop.h"
+#include "welkin/app/stress_map.h"
 #include "welkin/core/files.h"
 #include "welkin/core/progress.h"
 #include "welkin/measure/stress.h"
@@ -63,11 +64,25 @@ Result<void> runStress(StressOptions o) {
   report.orders = measure::checkOrders();
   if (!o.orders) {
     o.settings.rays = o.rays.value_or(o.settings.quick ? 100'000 : 1'200'000);
+    auto context = gpu::Context::createHeadless(o.common.gpu);
+    if (!context) return context.error();
+    Progress progress("stress", o.common.quiet);
+    auto pictures = measure::stressPictures(**context, o.settings, [&](double fraction) {
+      progress.update(fraction);
+      return !stopRequested();
+    });
+    if (!pictures) return pictures.error();
+    progress.finish();
+    for (const auto& cell : *pictures) o.settings.rays -= std::min(o.settings.rays, cell.rays);
     report.cells = measure::stressLines(o.settings);
+    report.cells.insert(report.cells.end(), pictures->begin(), pictures->end());
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!o.common.json.empty()) {
     if (auto written = writeFile(o.common.json, report.json() + "\n"); !written) return written;
+  }
+  if (!o.png.empty()) {
+    if (auto written = writePng(o.png, stressMap(report), {}); !written) return written;
   }
   print(report);
   if (!report.ok()) return Error{"stress: the matrix does not hold"};

@@ -37,8 +37,9 @@ Span spanOf(int target, int targets, int sources) {
 }
 float weightOf(const Span& s, int i) { return i == s.first ? s.firstWeight : i == s.last ? s.lastWeight : 1.0f; }
 
-// Text from (x0, y0) rightwards, cut at x1 and at the edges of the sheet.
-void write(Image8& sheet, const std::string& text, int x0, int y0, int x1) {
+}  // namespace
+
+void writeText(Image8& sheet, const std::string& text, int x0, int y0, int x1) {
   struct Vertex {
     float x, y, z;
     std::uint8_t colour[4];
@@ -58,8 +59,6 @@ void write(Image8& sheet, const std::string& text, int x0, int y0, int x1) {
     }
   }
 }
-
-}  // namespace
 
 Image8 scaled(const Image8& image, int width, int height) {
   Image8 out{width, height, std::vector<std::uint8_t>(std::size_t(width) * std::size_t(height) * 4, 255)};
@@ -99,7 +98,7 @@ Image8 contactSheet(const std::vector<SheetPicture>& pictures, int thumbWidth, i
       const auto from = thumb.rgba.begin() + std::ptrdiff_t(y) * w * 4;
       std::copy(from, from + std::ptrdiff_t(w) * 4, sheet.rgba.begin() + (std::ptrdiff_t(y0 + y) * sheet.width + x0) * 4);
     }
-    write(sheet, pictures[n].caption, x0 + 1, y0 + h + 5, x0 + w);
+    writeText(sheet, pictures[n].caption, x0 + 1, y0 + h + 5, x0 + w);
   }
   for (std::size_t i = 3; i < sheet.rgba.size(); i += 4) sheet.rgba[i] = 255;
   return sheet;

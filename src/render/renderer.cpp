@@ -401,14 +401,14 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
     std::vector<BrickJob> generate;
     if (haveEdits) {
       generate = std::move(edits.generate);
-      r.apply(std::move(edits), view.position_m, stats);
+      r.apply(std::move(edits), frame.position_m, stats);
     } else {
       FrameEdits nothing = r.last;   // the camera moved: the maps follow
       nothing.nodes.clear();
       nothing.dirty.clear();
       nothing.light.clear();
       nothing.generate.clear();
-      r.apply(std::move(nothing), view.position_m, stats);
+      r.apply(std::move(nothing), frame.position_m, stats);
     }
     r.tree->bind();
     r.clouds->run(frame, mode, r.scene, r.timer);
@@ -447,7 +447,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     FrameEdits edits = r.streamer->take(r.asked.front());
     r.asked.pop_front();
     const std::vector<BrickJob> generate = std::move(edits.generate);
-    r.apply(std::move(edits), view.position_m, stats, r.plan.sunMayMove);
+    r.apply(std::move(edits), frame.position_m, stats, r.plan.sunMayMove);
     batches += r.last.light.empty() ? 0 : 1;
     for (const BrickJob& job : r.last.light) lit[job.brick] = job;
     r.timer.begin("bricks");
@@ -510,8 +510,8 @@ void Renderer::Impl::drawAside(const View& view, const std::function<void()>& ma
   stillFrames = 0;
   beginPicture(frame);
   if (plan.clouds) {
-    updateTreeBlock(view.position_m);
-    tree->updateMaps(view.position_m);
+    updateTreeBlock(frame.position_m);
+    tree->updateMaps(frame.position_m);
     tree->bind();
     march();
   }
@@ -524,8 +524,9 @@ shared::CameraBlock Renderer::camera(const View& view) const { return impl_->fra
 TreeData Renderer::tree(const View& view) {
   Impl& r = *impl_;
   if (!r.plan.clouds) return {};
-  r.greatestDetail = static_cast<float>(pixelDetail(r.frameOf(view), r.settings.height));
-  r.updateTreeBlock(view.position_m);
+  const ViewFrame frame = r.frameOf(view);
+  r.greatestDetail = static_cast<float>(pixelDetail(frame, r.settings.height));
+  r.updateTreeBlock(frame.position_m);
   return r.tree->readBack();
 }
 

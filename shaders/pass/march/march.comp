@@ -43,6 +43,8 @@ uniform ivec2 u_offset;   // which pixel of each 4 x 4
 uniform vec3 u_sunIrradiance;
 uniform float u_groundAlbedo;
 
+const float kBrightest = 65504.0;  // of a half float, which the history is made of; past it is infinity
+
 struct CloudColours { vec3 sun, sky, ground; };
 
 // Irradiances that light a cloud at this point: of the sun through the air, of sky and ground. Where coarse voxels carry it above its
@@ -97,6 +99,7 @@ void main() {
   if (cloud.transmittance < 1.0) {
     CloudColours colours = coloursAt(position + dvec3(view.dir) * double(cloud.distance_m));
     light = cloud.sun * colours.sun + cloud.sky * colours.sky + cloud.ground * colours.ground;
+    light = mix(light, vec3(kBrightest), greaterThan(light, vec3(kBrightest)));  // a NaN stays one
   }
   float shadow = 1.0;
 #if OPT_GROUND

@@ -189,7 +189,7 @@ TEST(SceneIo, wrongValuesAreToldWithTheirPlace) {
   says("/clouds/combine", true, "one of: max, add");
   says("/views/ground/latitude_deg", 91, "from -90 to 90");
   says("/views/ground/altitude_m", -1, "from 0");
-  says("/views/ground/fov_deg", 180, "to 175");
+  says("/views/ground/fov_deg", 180, "to 179.9");
   says("/views/space/orientation_xyzw", json::array({1, 1, 1, 1}), "a unit quaternion");
   says("/views/space/position_m", json::array({6e6, 0, 0}), "above the ground");
   says("/quality/budget", "lots", "512MiB");

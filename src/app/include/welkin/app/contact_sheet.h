@@ -12,6 +12,9 @@ namespace welkin::app {
 // Average over each target pixel's area, in linear light. Sizes from 1.
 Image8 scaled(const Image8& image, int width, int height);
 
+// ASCII in light grey from (x0, y0) rightwards, 14 pixels high, cut at x1 and at the edges of the sheet.
+void writeText(Image8& sheet, const std::string& text, int x0, int y0, int x1);
+
 struct SheetPicture {
   Image8 image;
   std::string caption;  // ASCII, one line; what is longer than the picture is wide is cut

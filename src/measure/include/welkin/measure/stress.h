@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "welkin/core/result.h"
+#include "welkin/gpu/context.h"
 #include "welkin/measure/line_march.h"
 
 namespace welkin::measure {
@@ -41,6 +43,10 @@ constexpr double kStressLimit = 0.05;
 // Every integrator on lines whose truth is known, by optical depth per step, density, edges, shells, sources; then random lines, of which
 // only the bounds are known, until `rays` are reached.
 std::vector<StressCell> stressLines(const StressSettings& settings, GainsRule gains = shared::segmentGains);
+
+// The renderer's own pictures of scenes and views that go to an extreme, each pixel held to its bounds, and to a truth where one is cheap.
+// An error only when `progress` stopped it, or without a usable context: a scene that cannot be drawn is a failing cell.
+Result<std::vector<StressCell>> stressPictures(gpu::Context& context, const StressSettings& settings, const StressProgress& progress = {});
 
 // What a rule adds too much of the light in segments of optical depth up to x, as a share; and with a jump from extinction `before` to
 // `after` (times the step) somewhere inside a segment.
