@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
-#include "converge_trees.h"
+#include "converge_truth.h"
 #include "idle.h"
 #include "welkin/app/draw.h"
 #include "welkin/app/flight.h"
@@ -24,7 +25,15 @@ constexpr int kHistoryFrames = 16;     // one pixel in 16 a frame: until every p
 constexpr double kTruthStep = 1 / 8.;  // of the finest step of the sweep,
 constexpr double kTruthMost = 1 / 32.;  // and at most so much of the scene's own
 constexpr double kShowFull_255 = 16;   // difference that is shown as white
+constexpr double kRayTolerance = 1e-5;  // of a ray's weights, 1/sr: 0.03 of 255 in middle grey
+constexpr int kSourceEvery = 8;        // a ray through the source costs a second
 constexpr std::size_t kFromFront = 4;  // pictures of differences, evenly along the front; and the worst
+
+void keepOnly(std::vector<float>& values, const std::vector<std::uint32_t>& pixels) {
+  std::vector<float> kept(values.size(), 0.0f);
+  for (const std::uint32_t p : pixels) kept[p] = values[p];
+  values = std::move(kept);
+}
 
 class Convergence {
  public:
@@ -60,7 +69,7 @@ class Convergence {
     out.repetitions = options_.repetitions;
     out.clock = trees_->software() ? "CPU of the process, all cores added, of all passes of a frame" : "GPU, of all passes of a frame";
     out.truth.kind = kTruthNames[std::size_t(options_.truth)];
-    out.truth.description = fmt::format("{}, every pixel marched", truth_.name);
+    out.truth.description = describeTruth(truthSettings());
     out.truth.tolerance_255 = measure::joined(truthErrors_).rmse_255;
     addPictures(out);
     return out;
@@ -93,8 +102,6 @@ class Convergence {
     t.quality.detail = 0;
     t.quality.step = step;
     t.frames = Frames::Full;
-    t.name = fmt::format("{}, depth {}, {} {} {:g}", bytesText(t.quality.budget_bytes), t.quality.depth,
-                         kIntegratorNames[std::size_t(t.quality.integrator)], kStepRuleNames[std::size_t(t.quality.stepRule)], step);
     return t;
   }
 
@@ -121,7 +128,8 @@ class Convergence {
     const double rounds = options_.repetitions + 2.0;
     const auto share = [&](double part) { return (double(pose) + part) / double(poses_.views.size()); };
     if (auto settled = trees_->settle(view, [&](double f) { return update(share(f / rounds), "settling"); }); !settled) return settled;
-    if (auto drawn = drawTruth(view, pose); !drawn) return drawn;
+    const auto truthShown = [&](double f) { return update(share(1 / rounds), fmt::format("truth {:.0f} %", 100 * f)); };
+    if (auto looked = lookAtTruth(view, pose, truthShown); !looked) return looked;
     // Round 0 compiles shaders, warms caches and gives the pictures; the others are timed. They go there and back, so that no setting
     // always follows the same one and drift favours none.
     for (int round = 0; round <= options_.repetitions; ++round) {
@@ -142,22 +150,18 @@ class Convergence {
     return !stopRequested();
   }
 
-  Result<void> drawTruth(const View& view, std::size_t pose) {
-    Renderer& renderer = trees_->of(truth_);
-    for (const double step : {2.0, 1.0}) {  // the difference of the two bounds what is left in the finer: the march is of first order at least
-      ConvergeSetting s = truth_;
-      s.quality.step *= step;
-      if (auto used = renderer.setMarch(s.quality); !used) return used;
-      renderer.preview(view);
-      const ImageF coarser = std::move(truthLight_);
-      truthLight_ = renderer.radiance();
-      if (step > 1) continue;
-      const auto error = measure::compareShown(truthLight_, coarser, curve(), ev_);
-      if (!error) return error.error();
-      truthErrors_.push_back(*error);
-    }
-    truthImage_ = renderer.image();
-    if (pose == 0) firstTruth_ = truthImage_;
+  TruthSettings truthSettings() const {
+    const int every = options_.truth == TruthKind::Gpu ? 1 : options_.truthEvery.value_or(options_.truth == TruthKind::Source ? kSourceEvery : 1);
+    return {options_.truth, truth_.quality, every, kRayTolerance, curve(), ev_};
+  }
+
+  Result<void> lookAtTruth(const View& view, std::size_t pose, const std::function<bool(double)>& progress) {
+    auto drawn = drawTruth(trees_->of(truth_), view, poses_.size, truthSettings(), progress);
+    if (!drawn) return drawn.error();
+    drawn_ = std::move(*drawn);
+    drawnLight_ = chosen(drawn_.light, drawn_.pixels);
+    truthErrors_.push_back(drawn_.tolerance);
+    if (pose == 0) firstTruth_ = drawn_.image;
     return {};
   }
 
@@ -200,16 +204,20 @@ class Convergence {
   Result<void> keepPicture(Work& work, Renderer& renderer, const FrameStats& stats, std::size_t pose) {
     const ImageF light = renderer.radiance();
     const Image8 image = renderer.image();
-    auto error = measure::compareShown(truthLight_, light, curve(), ev_);
+    auto error = measure::compareShown(drawnLight_, chosen(light, drawn_.pixels), curve(), ev_);
     if (!error) return error.error();
-    const auto flip = measure::flipDifference(truthImage_, image);
-    if (!flip) return flip.error();
-    error->flip = flip->mean;
+    error->flip = std::numeric_limits<double>::quiet_NaN();
+    if (drawn_.pixels.empty()) {  // it looks at neighbours
+      const auto flip = measure::flipDifference(drawn_.image, image);
+      if (!flip) return flip.error();
+      error->flip = flip->mean;
+    }
     work.errors.push_back(*error);
     work.pictures.push_back(image);
     work.stats = stats;
     if (pose == 0) {
-      auto difference = measure::shownDifference(truthLight_, light, curve(), ev_);
+      auto difference = measure::shownDifference(drawn_.light, light, curve(), ev_);
+      if (!drawn_.pixels.empty()) keepOnly(difference, drawn_.pixels);
       for (float& d : difference) d = float(d / kShowFull_255);
       work.difference = measure::flipPicture({image.width, image.height, std::move(difference), 0});
     }
@@ -294,9 +302,10 @@ class Convergence {
   Progress* progress_ = nullptr;
   std::vector<Work> works_;
   double ev_ = 0;  // of the pose
-  ImageF truthLight_;
-  Image8 truthImage_, firstTruth_;
-  std::vector<measure::ImageError> truthErrors_;  // of each pose: the truth at twice its step
+  TruthPicture drawn_;     // of the pose
+  ImageF drawnLight_;      // its pixels that count
+  Image8 firstTruth_;
+  std::vector<measure::ImageError> truthErrors_;  // tolerances, by pose
 };
 
 }  // namespace

@@ -200,7 +200,7 @@ std::string thesisTable(const BudgetStepTable& t) {
 
 std::string settingsTable(const ConvergeReport& report) {
   static constexpr const char* kHeads[] = {"setting", "ms",  "p25..p75", "march ms", "RMSE",   "relative HDR", "p99",
-                                           "max",     "> 2", "flip",     "samples",  "bricks", "bytes"};
+                                           "max",     "> 2", "flip",     "samples",  "bricks", "bytes",        "tree ms", "of it light"};
   std::string out = "<h2>All settings</h2><div class=\"card scroll\"><table class=\"sortable\"><thead><tr>";
   for (const char* head : kHeads) out += fmt::format("<th><button>{}</button></th>", htmlText(head));
   out += "</tr></thead><tbody>";
@@ -216,8 +216,9 @@ std::string settingsTable(const ConvergeReport& report) {
     out += cell(march_ms, fmt::format("{:.2f}", march_ms)) + cell(e.rmse_255, fmt::format("{:.4f}", e.rmse_255));
     out += cell(e.relativeRmse, fmt::format("{:.5f}", e.relativeRmse)) + cell(e.p99_255, fmt::format("{:.2f}", e.p99_255));
     out += cell(e.max_255, fmt::format("{:.1f}", e.max_255)) + cell(e.shareOver2, fmt::format("{:.2f} %", 100 * e.shareOver2));
-    out += cell(e.flip, fmt::format("{:.5f}", e.flip)) + cell(double(row.samples), fmt::format("{}", row.samples));
-    out += cell(row.residency.bricks, fmt::format("{}", row.residency.bricks)) + cell(double(row.bytes), bytesText(row.bytes)) + "</tr>\n";
+    out += cell(e.flip, std::isfinite(e.flip) ? fmt::format("{:.5f}", e.flip) : "-") + cell(double(row.samples), fmt::format("{}", row.samples));
+    out += cell(row.residency.bricks, fmt::format("{}", row.residency.bricks)) + cell(double(row.bytes), bytesText(row.bytes));
+    out += cell(row.settle_ms, fmt::format("{:.0f}", row.settle_ms)) + cell(row.light_ms, fmt::format("{:.0f}", row.light_ms)) + "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }

@@ -11,8 +11,9 @@
 
 namespace welkin::app {
 
-enum class TruthKind { Gpu };
-inline constexpr std::array<const char*, 1> kTruthNames{"gpu"};
+// The renderer's own march in very fine steps; the resident tree, or the cloud source without voxels, in double precision on the CPU.
+enum class TruthKind { Gpu, Tree, Source };
+inline constexpr std::array<const char*, 3> kTruthNames{"gpu", "tree", "source"};
 
 struct SweepAxis {
   std::string name;
@@ -49,6 +50,7 @@ struct ConvergeOptions {
   std::string preset = "default";
   std::vector<SweepAxis> sweep;  // in place of the preset's
   TruthKind truth = TruthKind::Gpu;
+  std::optional<int> truthEvery;  // tree, source: one pixel in so many squared; absent: all of a tree's, one in 64 of a source's
   int repetitions = 7, poses = 5;  // poses: of a path, evenly along it
   std::string command;
 };
