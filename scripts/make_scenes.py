@@ -91,6 +91,37 @@ def without(base, *sections):
     return {k: v for k, v in base.items() if k not in sections}
 
 
+# Small trees, so that each reason is measured in seconds.
+LEFT_OUT_QUALITY = {"budget": "64MiB", "depth": 12, "detail": 10, "seed": 1}
+
+
+def left_out(pose_sun):
+    """One scene a reason to leave something out, each with the view for which the reason holds (docs/left-out.md)."""
+    earth = {**scene("", "../../data", LEFT_OUT_QUALITY, {"near": POSES["near"]}), "sun": pose_sun}
+    clear = {**without(earth, "clouds"), "views": {"orbit": POSES["orbit"]}}
+    gases = [layer for layer in ATMOSPHERE["layers"] if layer["name"] != "mie"]
+    breath = [{**layer, "scattering_per_m": [3e-5 * s for s in layer["scattering_per_m"]],
+               "absorption_per_m": [3e-5 * a for a in layer["absorption_per_m"]]} for layer in ATMOSPHERE["layers"]]
+    haze = {"type": "slab", "base_m": 1000.0, "top_m": 4000.0, "extinction_per_m": 0.0002}
+    hazy = {**without(earth, "atmosphere"), "planet": PLANET, "clouds": {"sources": [haze]}}
+    deck = {"type": "slab", "base_m": 2000.0, "top_m": 8000.0, "extinction_per_m": 0.04}
+    scenes = {
+        "thin-air": {**clear, "atmosphere": {**ATMOSPHERE, "layers": breath}},
+        "smooth-air": {**clear, "atmosphere": {**ATMOSPHERE, "layers": gases}},
+        "fixed-exposure": clear,
+        "no-aov": {**without(clear, "atmosphere"), "planet": PLANET},
+        "no-ground": {**earth, "views": {"up": pose(1.8, 60)}},
+        "overcast": {**earth, "clouds": {"sources": [deck]}, "views": {"above": pose(9_000, -20)}},
+        "night": {**earth, "sun": sun(POSE_SITE, 0, -88.0), "views": {"ground": POSES["ground"]}},
+        "looking-away": {**earth, "views": {"away": view(400_000, 55, **POSE_SITE, heading_deg=(POSE_HEADING_DEG + 60) % 360)}},
+        "one-picture": {**hazy, "quality": {**LEFT_OUT_QUALITY, "depth": 10, "detail": 5}},
+        "one-layer": {**hazy, "quality": {**LEFT_OUT_QUALITY, "detail": 14}},
+        "sun-fixed": earth,
+        "nothing-moves": earth,
+    }
+    return {name: {**content, "name": f"left out: {name}"} for name, content in scenes.items()}
+
+
 def files():
     out = {"scenes/earth.json": scene("Earth", "../data", {"budget": "512MiB", "depth": 16, "seed": 1},
                                       {**EARTH_VIEWS, **ZOOM_VIEWS}),
@@ -99,11 +130,12 @@ def files():
     pose_sun = sun(POSE_SITE, (POSE_HEADING_DEG + 60) % 360, 48.0)
     for name, where in POSES.items():
         out[f"benchmarks/poses/{name}.json"] = {**scene(f"pose {name}", "../../data", POSE_QUALITY, {name: where}), "sun": pose_sun}
-    everything = {**scene("nothing left out", "../../data", POSE_QUALITY, {"orbit": POSES["orbit"]}), "sun": pose_sun,
+    everything = {**scene("nothing left out", "../../data", LEFT_OUT_QUALITY, {"orbit": POSES["orbit"]}), "sun": pose_sun,
                   "output": {"exposure_ev": "auto"}}
     out["benchmarks/left-out/nothing.json"] = everything
     for section in ["clouds", "atmosphere", "sun"]:
         out[f"benchmarks/left-out/no-{section}.json"] = {**without(everything, section), "name": f"no {section}"}
+    out.update({f"benchmarks/left-out/{name}.json": content for name, content in left_out(pose_sun).items()})
     out.update(planets.files(ATMOSPHERE))
     return {name: json.dumps(content, indent=2) + "\n" for name, content in out.items()}
 

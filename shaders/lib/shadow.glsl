@@ -39,7 +39,7 @@ float sunDepth(dvec3 start_planet, float skip_m) {
       word = lookUp(p, level, mapLevelAt(tree.rootSize_m / (fromCentre + t), tree.mapBase, tree.depth));
       at = wordLevel(word);
       steps = nodeSteps(p, at);
-      next = min(t + nodeExit(steps, levelSteps(at), walk.ahead, walk.metrePerStep) + pastExit(t), end);
+      next = min(t + leaveNode(walk, steps, levelSteps(at), t), end);
       empty = wordEmpty(word);
       t = empty ? next : t;
       visit++;

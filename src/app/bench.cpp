@@ -64,6 +64,7 @@ class Bench {
   Bench(const BenchOptions& options, Start start, Size size) : options_(options), start_(std::move(start)), size_(size) {
     settings_.width = size.width;
     settings_.height = size.height;
+    settings_.forced = {"nothing-moves"};  // a frame like the last one is what is measured
   }
 
   Result<void> run() {
@@ -82,7 +83,7 @@ class Bench {
     progress.finish();
     if (stopRequested()) return Error{fmt::format("{}: stopped before all was measured", options_.scene.string())};
     report_["left_out"] = Json::array();
-    for (const auto& left : renderer().plan().leftOut) report_["left_out"].push_back({{"what", left.what}, {"reason", left.reason}});
+    for (const auto& left : renderer().plan().leftOut) report_["left_out"].push_back({{"name", left.name}, {"what", left.what}, {"reason", left.reason}});
     report_["gl_debug_messages"] = stage_.context->debugMessages();
     if (!options_.common.json.empty()) {
       const auto text = report_.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

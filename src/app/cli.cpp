@@ -98,6 +98,7 @@ int runProgram(int argc, const char* const* argv) {
   addInfo(app, action);
   addCompare(app, action);
   addProbe(app, action);
+  addStress(app, action);
   initLog(false);
   try {
     app.parse(argc, argv);

@@ -2,7 +2,6 @@
 #include "probe_clouds.h"
 #include "welkin/app/probe_csv.h"
 #include "welkin/core/files.h"
-#include "welkin/core/log.h"
 #include "welkin/core/progress.h"
 #include "welkin/gpu/context.h"
 #include "welkin/physics/scene_io.h"
@@ -27,6 +26,11 @@ struct Probed {
 };
 
 Result<Probed> probeReference(const Scene& scene, const std::vector<ProbeRay>& rays, const ProbeOptions& o) {
+  if (scene.clouds) {
+    auto results = probeCloudsReference(scene, rays, o.paths, o.common.quiet);
+    if (!results) return Error{fmt::format("{}: {}", o.scene.string(), results.error().message)};
+    return Probed{std::move(*results), true};
+  }
   auto medium = reference::makeMedium(scene);
   if (!medium) return Error{fmt::format("{}: {}", o.scene.string(), medium.error().message)};
   Probed out;
@@ -77,7 +81,6 @@ Result<void> runProbe(const ProbeOptions& o) {
   }
   auto scene = loadScene(o.scene);
   if (!scene) return scene.error();
-  if (scene->clouds && o.method == "reference") log::warn("the scene's clouds are left out: the reference is of the clear air");
   auto table = readProbeTable(o.rays);
   if (!table) return table.error();
   auto probed = o.method == "reference" ? probeReference(*scene, table->rays, o) : probeTables(*scene, table->rays, o);
@@ -95,7 +98,8 @@ void addProbe(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("probe", "radiance and transmittance along rays, for a solar irradiance of 1");
   command->footer(
       "Rays are rows of a CSV: altitude_m,sun_zenith_deg,view_zenith_deg,relative_azimuth_deg[,max_distance_m]\n"
-      "[,latitude_deg,longitude_deg], in any order. Clouds of the scene are on the ray, but not by the reference.\n"
+      "[,latitude_deg,longitude_deg], in any order. Clouds of the scene are on the ray;\n"
+      "the reference follows paths through them, which takes long: give it a --relative-error such as 0.02.\n"
       "Example:\n  welkin probe scenes/earth.json --rays rays.csv -o sky.csv --method reference --orders 1");
   command->add_option("SCENE", o->scene, "a scene (JSON)")->required();
   command->add_option("--rays", o->rays, "the rays, CSV")->required();

@@ -41,6 +41,8 @@ Result<void> runRender(const RenderOptions& o) {
   RenderSettings settings;
   settings.width = size.width;
   settings.height = size.height;
+  settings.onlyView = start->view;
+  settings.linear = kindOfName(o.output) == PictureKind::Exr;
   auto stage = openStage(start->scene, settings, o.common.gpu);
   if (!stage) return stage.error();
   Progress progress("render", o.common.quiet);

@@ -18,6 +18,7 @@ void addConverge(CLI::App& app, Action& action, const std::string& commandLine);
 void addInfo(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addProbe(CLI::App& app, Action& action);
+void addStress(CLI::App& app, Action& action);
 
 // --size --budget --depth --step --detail --seed --gpu, then --quiet --json.
 void addQualityOptions(CLI::App& command, CommonOptions& options);

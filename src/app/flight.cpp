@@ -28,6 +28,7 @@ class Replay {
     settings_.bricksPerFrame = options.bricksPerFrame;
     settings_.workerJitterSeed = options.workerJitter;
     settings_.waitForEdits = options.waitForEdits;
+    settings_.linear = false;
   }
 
   Result<void> run() {

@@ -12,21 +12,7 @@ namespace {
 constexpr double kStep = 0.05;        // of the march: a probe measures, and one pixel is cheap; the default is up to 0.04 off in transmittance
 constexpr double kPixel_deg = 0.001;  // of the picture: 1.7 mm a kilometre away
 
-struct Directions {
-  glm::dvec3 up, toSun, view;  // unit, planet frame
-};
-
-Directions directionsOf(const ProbeRay& ray) {
-  const double sinLat = std::sin(ray.latitude_rad), cosLat = std::cos(ray.latitude_rad);
-  const double sinLon = std::sin(ray.longitude_rad), cosLon = std::cos(ray.longitude_rad);
-  const glm::dvec3 up{cosLat * cosLon, cosLat * sinLon, sinLat}, south{sinLat * cosLon, sinLat * sinLon, -cosLat};
-  const glm::dvec3 side = glm::cross(up, south);
-  const double sinView = std::sin(ray.viewZenith_rad);
-  return {up, up * std::cos(ray.sunZenith_rad) + south * std::sin(ray.sunZenith_rad),
-          up * std::cos(ray.viewZenith_rad) + sinView * (south * std::cos(ray.azimuth_rad) + side * std::sin(ray.azimuth_rad))};
-}
-
-View pixelView(const Scene& scene, const ProbeRay& ray, const Directions& d) {
+View pixelView(const Scene& scene, const ProbeRay& ray, const ProbeDirections& d) {
   View view;
   view.position_m = d.up * (scene.planet.radius_m + ray.altitude_m);
   const glm::dvec3 across = std::abs(d.view.z) < 0.7 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);  // any that is not along the ray
@@ -37,6 +23,16 @@ View pixelView(const Scene& scene, const ProbeRay& ray, const Directions& d) {
 }
 
 }  // namespace
+
+ProbeDirections directionsOf(const ProbeRay& ray) {
+  const double sinLat = std::sin(ray.latitude_rad), cosLat = std::cos(ray.latitude_rad);
+  const double sinLon = std::sin(ray.longitude_rad), cosLon = std::cos(ray.longitude_rad);
+  const glm::dvec3 up{cosLat * cosLon, cosLat * sinLon, sinLat}, south{sinLat * cosLon, sinLat * sinLon, -cosLat};
+  const glm::dvec3 side = glm::cross(up, south);
+  const double sinView = std::sin(ray.viewZenith_rad);
+  return {up, up * std::cos(ray.sunZenith_rad) + south * std::sin(ray.sunZenith_rad),
+          up * std::cos(ray.viewZenith_rad) + sinView * (south * std::cos(ray.azimuth_rad) + side * std::sin(ray.azimuth_rad))};
+}
 
 Result<std::vector<ProbeResult>> probeClouds(Scene scene, const std::vector<ProbeRay>& rays, const CommonOptions& options) {
   for (const ProbeRay& ray : rays)
@@ -61,7 +57,7 @@ Result<std::vector<ProbeResult>> probeClouds(Scene scene, const std::vector<Prob
   Progress progress("probe", options.quiet);
   std::unique_ptr<Stage> stage;
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Directions d = directionsOf(rays[i]);
+    const ProbeDirections d = directionsOf(rays[i]);
     if (!stage || d.toSun != scene.sun->direction_planet) {
       scene.sun->direction_planet = d.toSun;
       stage.reset();

@@ -192,7 +192,7 @@ std::string TimingReport::json() const {
   out["gl_debug_messages"] = glMessages;
   if (!glFirstMessages.empty()) out["gl_first_messages"] = glFirstMessages;
   out["left_out"] = Json::array();
-  for (const auto& left : leftOut) out["left_out"].push_back({{"what", left.what}, {"reason", left.reason}});
+  for (const auto& left : leftOut) out["left_out"].push_back({{"name", left.name}, {"what", left.what}, {"reason", left.reason}});
   if (!quality.empty()) {
     std::vector<double> rmse;
     for (const auto& row : quality) {

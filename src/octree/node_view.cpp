@@ -23,6 +23,7 @@ constexpr double kOutsideRamp = 0.1, kHiddenRamp_rad = 0.02;
 NodeView::NodeView(const RootFrame& root, const SelectionView& view) : root_(root), view_(view) {
   cameraRadius_m_ = glm::length(view.position_m);
   drawnAltitude_m_ = glm::length(view.position_m + view.drawnOffset_m) - root.planetRadius_m;
+  aboveDeck_ = std::min(cameraRadius_m_ - root.planetRadius_m - view.slack_m, drawnAltitude_m_ - view.drawnSlack_m) > view.deckTop_m;
   zenith_ = cameraRadius_m_ > 0 ? view.position_m / cameraRadius_m_ : glm::dvec3(0, 0, 1);
   horizonAngle_rad_ = std::acos(std::min(1.0, root.planetRadius_m / std::max(cameraRadius_m_, 1.0)));
   cosHorizon_ = std::cos(horizonAngle_rad_);
@@ -55,6 +56,11 @@ double NodeView::beyondHorizon_rad(glm::dvec3 centre, double radius_m, double si
   return std::acos(std::clamp(cosine, -1.0, 1.0)) - std::asin(radius_m / c) - reach_rad;
 }
 
+// Stored cloud leaks by a few voxels, so it is not the node alone that must be below.
+bool NodeView::belowDeck(glm::dvec3 centre, double radius_m, double size_m) const {
+  return aboveDeck_ && glm::length(centre) + radius_m + size_m * kLeakNodes < root_.planetRadius_m + view_.deckFloor_m;
+}
+
 // To the node, but not nearer than the shell that holds cloud.
 double NodeView::leastDistance_m(glm::dvec3 offset_m, double half_m, double altitude_m) const {
   const double leak_m = 2 * half_m * kLeakNodes;
@@ -74,7 +80,8 @@ NodeView::Seen NodeView::look(const NodeAddress& node, const Seen& above) const 
   const double outside_m = beyondPicture_m(offset, radius_m + view_.slack_m);
   seen.outside = above.outside || outside_m > 0;
   const double outside = std::clamp(outside_m / (kOutsideRamp * narrow_ * glm::length(offset)), 0.0, 1.0);
-  const double hidden_rad = above.deep ? kHiddenRamp_rad : beyondHorizon_rad(centre, radius_m, size_m);
+  const bool deep = above.deep || belowDeck(centre, radius_m, size_m);
+  const double hidden_rad = deep ? kHiddenRamp_rad : beyondHorizon_rad(centre, radius_m, size_m);
   seen.deep = hidden_rad >= kHiddenRamp_rad;
   seen.hidden = above.hidden || hidden_rad > 0;
   const double hidden = std::clamp(hidden_rad / kHiddenRamp_rad, 0.0, 1.0);

@@ -16,9 +16,13 @@ Stretch sphereStretch(double b, double c) {
 
 namespace {
 
+constexpr double kOnGround_m = 1e-6;  // rounding of an Earth's radius is 1e-9 m
+
 CameraRay finished(CameraRay ray) {
-  const Stretch ground = sphereStretch(glm::dot(ray.position_planet, ray.direction), ray.altitude_m * (ray.centre_m + ray.radius_m));
+  const double b = glm::dot(ray.position_planet, ray.direction);
+  const Stretch ground = sphereStretch(b, ray.altitude_m * (ray.centre_m + ray.radius_m));
   ray.ground_m = ground.near <= ground.far ? ground.near : -1;
+  if (std::abs(ray.altitude_m) <= kOnGround_m) ray.ground_m = b < 0 ? 0 : -1;
   return ray;
 }
 

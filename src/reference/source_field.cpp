@@ -138,13 +138,25 @@ std::uint64_t SourceField::contentHash() const {
 
 double SourceField::sunDepth(glm::dvec3 position_planet) const {
   const CameraRay ray = reference::rayFrom(position_planet, settings_.towardsSun, root_.planetRadius_m);
-  if (ray.ground_m > 0 || (ray.ground_m == 0 && glm::dot(position_planet, settings_.towardsSun) < 0)) return kOpaqueDepth;
+  if (ray.ground_m >= 0) return kOpaqueDepth;
   const double leak = kLeakVoxels / 7 * root_.nodeSize_m(settings_.detail.level(glm::length(position_planet - settings_.eye_planet)));
   const Stretch s = shellStretch(ray, -2 * root_.planetRadius_m, source_.top_m() + leak);
   if (s.empty()) return 0;
   SourceWalk walk(source_, root_, settings_, position_planet, settings_.towardsSun);
+  return std::min(depthWithin(walk, s, kOpaqueDepth), kOpaqueDepth);
+}
+
+double SourceField::opticalDepth(const CameraRay& ray, double most_m) const {
+  Stretch s = stretchOf(ray);
+  s.far = std::min(s.far, most_m);
+  if (s.empty()) return 0;
+  SourceWalk walk(source_, root_, settings_, ray.position_planet, ray.direction);
+  return depthWithin(walk, s, std::numeric_limits<double>::infinity());
+}
+
+double SourceField::depthWithin(SourceWalk& walk, Stretch s, double most) const {
   double depth = 0;
-  for (double t = s.near; t < s.far && depth < kOpaqueDepth;) {
+  for (double t = s.near; t < s.far && depth < most;) {
     const SourceWalk::Piece piece = walk.enter(t, s.far, settings_.shadowVoxels);
     if (!piece.empty) {
       const double middle = 0.5 * (t + piece.to), half = 0.5 * (piece.to - t), off = half / std::sqrt(3.0);
@@ -152,7 +164,7 @@ double SourceField::sunDepth(glm::dvec3 position_planet) const {
     }
     t = piece.to;
   }
-  return std::min(depth, kOpaqueDepth);
+  return depth;
 }
 
 }  // namespace welkin::reference

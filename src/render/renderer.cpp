@@ -12,6 +12,7 @@
 #include "render/march/cloud_passes.h"
 #include "render/albedo_picture.h"
 #include "render/tree/resident_tree.h"
+#include "welkin/clouds/opaque_deck.h"
 #include "welkin/render/composite/composite_pass.h"
 #include "welkin/render/exposure/exposure_pass.h"
 #include "welkin/render/sky/sky_tables.h"
@@ -25,8 +26,8 @@ namespace {
 constexpr std::uint64_t kLatency = 2;            // edits computed from frame k are applied at frame k + 2
 constexpr double kVoxelPixels = 0.78;            // finer is noise; at 180 lines this keeps K inside the octree maps (kMapReach)
 constexpr std::uint32_t kSettleBricks = 8192;    // bricks of one step while settling: nothing is drawn in between
-constexpr double kCloudShell_m = 20'000;         // the octree's root reaches this far above the ground
 constexpr int kMostSettleSteps = 4000;           // far over the count a tree of the largest budget needs
+constexpr int kRound = 16;                       // frames until every pixel was marched
 constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and their alignment
 
 // A voxel is node / 7: at the far end of its level's range it is kVoxelPixels wide, at the near end twice that.
@@ -45,7 +46,7 @@ std::uint64_t treeBudget(const Scene& scene, const gpu::MemoryAccount& account, 
 
 struct Renderer::Impl {
   Impl(gpu::Context& c, const Scene& s, const RenderSettings& r)
-      : context(c), scene(s), settings(r), plan(planFrame(s)), account(s.quality.budget_bytes), timer(c.device().software) {
+      : context(c), scene(sceneFor(s, r.forced)), settings(r), plan(planFrame(s, planFor())), account(s.quality.budget_bytes), timer(c.device().software) {
     timer.enabled = r.timing;
   }
 
@@ -77,21 +78,34 @@ struct Renderer::Impl {
 
   std::vector<std::string> notes;
 
+  PlanFor planFor() const {
+    return {settings.onlyView, settings.onlyView.has_value(), settings.linear, double(settings.width) / settings.height, settings.forced};
+  }
   Result<void> create();
   void note(std::string line) { notes.push_back(std::move(line)); }
   double shellTop_m() const { return plan.air ? airTop_m(scene) : source ? std::max(source->top_m(), 1.0) : 1.0; }
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
-  void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats);
+  void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats, bool lightNow = true);
   float greatestDetail = 1e6f;      // of this picture's pixels
+  bool away = false;                // the last frame was drawn bare: nothing is streamed since
+  std::optional<View> shown;        // of the last frame
+  std::uint64_t shownNan = 0;
+  std::uint64_t stillFrames = 0;    // of the same view and tree
+  int marchedFrames = 0;            // of the same, each a sixteenth of the pixels
   void updateTreeBlock(glm::dvec3 camera_planet);
   void workOnSky();
   void useAir(const Scene& changed);
   Result<void> setAir(const Scene& changed, AirChange how);
   ViewFrame frameOf(const View& view) const { return viewFrame(view, scene.planet.radius_m, shellTop_m(), settings.width, settings.height); }
   void drawAside(const View& view, const std::function<void()>& march);  // a picture that leaves history, tree and exposure alone
-  void beginPicture(const ViewFrame& frame);                  // camera, counters, sky
+  void beginPicture(const ViewFrame& frame, bool bare = false);  // camera, counters, sky
   // Composite and exposure. sinceLast_s: ExposurePass::meter; none: the exposure stays where it is, unless there is none yet.
-  void endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s);
+  void endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s, bool bare = false);
+  bool bareNow(const View& view, FrameStats& stats);
+  void catchUp(const ViewFrame& frame, FrameStats& stats);
+  bool asBefore(const View& view) const;
+  bool shownView(const View& view) const;
+  void remember(const View& view, const FrameStats& stats, bool treeChanged);
   double shown_ev(const View& view) const;
   FrameStats report(FrameStats stats) const;
 };
@@ -110,17 +124,18 @@ Result<void> Renderer::Impl::create() {
     sourceMade = std::async(std::launch::async, [this] { return makeDensitySource(scene, root); });
   }
   if (plan.air) {
-    auto tables = SkyTables::create(account, scene);
+    auto tables = SkyTables::create(account, scene, SkyOrders::All, plan.everyHarmonic);
     if (!tables) return tables.error();
+    if (!plan.sunMayMove) tables->letGoOfMakers();
     sky.emplace(std::move(*tables));
   }
   AlbedoPicture albedo;
-  if (!scene.planet.albedoMap.empty()) {
+  if (plan.albedoMap && !scene.planet.albedoMap.empty()) {
     auto picture = loadAlbedoPicture(scene);
     if (!picture) note(picture.error().message + ": the ground is plain");
     else albedo = std::move(*picture);
   }
-  auto compositePass = CompositePass::create(account, scene, settings.width, settings.height, albedo.width ? &albedo : nullptr);
+  auto compositePass = CompositePass::create(account, scene, CompositeParts(plan), settings.width, settings.height, albedo.width ? &albedo : nullptr);
   if (!compositePass) return compositePass.error();
   composite.emplace(std::move(*compositePass));
   if (plan.metered) {
@@ -143,10 +158,10 @@ Result<void> Renderer::Impl::create() {
   auto residentTree = ResidentTree::create(account, layout, root);
   if (!residentTree) return residentTree.error();
   tree.emplace(std::move(*residentTree));
-  auto brickPasses = BrickPasses::create(account, *source, *tree, plan.sun, settings.light);
+  auto brickPasses = BrickPasses::create(account, *source, *tree, plan, settings.light);
   if (!brickPasses) return brickPasses.error();
   bricks.emplace(std::move(*brickPasses));
-  auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan.air, scene.quality);
+  auto cloudPasses = CloudPasses::create(account, *tree, settings.width, settings.height, plan, scene.quality);
   if (!cloudPasses) return cloudPasses.error();
   clouds.emplace(std::move(*cloudPasses));
   StreamSettings stream;
@@ -154,6 +169,7 @@ Result<void> Renderer::Impl::create() {
   stream.brickCapacity = layout.bricks;
   stream.groupCapacity = layout.groups;
   stream.detailLimit = scene.quality.detail;
+  if (!settings.forced.contains("overcast")) stream.deck = opaqueDeck(scene);
   streamer = std::make_unique<Streamer>(*source, root, stream, settings.workerJitterSeed);
   updateTreeBlock({0, 0, 0});
   return {};
@@ -188,7 +204,7 @@ void Renderer::Impl::ask(const ViewFrame& view, std::uint32_t maxBricks, bool sn
   streamer->post(std::move(input));
 }
 
-void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats) {
+void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats, bool lightNow) {
   timer.begin("maps");
   tree->store(edits);
   last = std::move(edits);
@@ -196,14 +212,14 @@ void Renderer::Impl::apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameSt
   tree->updateMaps(camera_planet);
   timer.end();
   stats.bricksLit += static_cast<std::uint32_t>(last.light.size());
-  if (plan.sun && !last.light.empty()) {
+  if (plan.sun && lightNow && !last.light.empty()) {
     timer.begin("light");
     bricks->light(*tree, last.light);
     timer.end();
   }
 }
 
-void Renderer::Impl::beginPicture(const ViewFrame& frame) {
+void Renderer::Impl::beginPicture(const ViewFrame& frame, bool bare) {
   greatestDetail = static_cast<float>(pixelDetail(frame, settings.height));
   camera.upload(0, std::as_bytes(std::span(&frame.block, 1)));
   camera.bind(GL_UNIFORM_BUFFER, WK_CAMERA_BINDING);
@@ -212,7 +228,7 @@ void Renderer::Impl::beginPicture(const ViewFrame& frame) {
   if (!sky) return;
   timer.begin("sky");
   workOnSky();
-  sky->updateView(frame.block, scene.sun ? scene.sun->direction_planet : glm::dvec3(0, 0, 1));
+  if (!bare) sky->updateView(frame.block, scene.sun ? scene.sun->direction_planet : glm::dvec3(0, 0, 1));
   sky->bind();
   timer.end();
 }
@@ -226,6 +242,7 @@ void Renderer::Impl::workOnSky() {
     glFinish();  // else slices would pile up in the driver unseen
   } while (more && gpu::wall_ms() - start < settings.sky_ms);
   if (more) return;
+  if (!plan.sunMayMove) nextSky->tables.letGoOfMakers();
   sky = std::move(nextSky->tables);
   useAir(nextSky->scene);
   nextSky.reset();
@@ -234,6 +251,7 @@ void Renderer::Impl::workOnSky() {
 void Renderer::Impl::useAir(const Scene& changed) {
   scene.planet.albedo = changed.planet.albedo, scene.atmosphere = changed.atmosphere, scene.sun = changed.sun;
   composite->use(scene);
+  stillFrames = 0;
 }
 
 Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
@@ -241,12 +259,12 @@ Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
   next.planet.albedo = changed.planet.albedo;
   next.atmosphere = changed.atmosphere;
   next.sun = changed.sun;
-  const FramePlan nextPlan = planFrame(next);
+  const FramePlan nextPlan = planFrame(next, planFor());
   if (nextPlan.air != plan.air || nextPlan.sun != plan.sun) return Error{"air or a sun that come or go need a new start"};
   if (plan.clouds && plan.sun && next.sun->direction_planet != scene.sun->direction_planet)
     return Error{"a sun that moves needs a new start: clouds keep its light"};
   if (sky) {
-    auto tables = how == AirChange::Keep ? SkyTables::withField(account, next, *sky) : SkyTables::begin(account, next);
+    auto tables = how == AirChange::Keep ? SkyTables::withField(account, next, *sky, plan.everyHarmonic) : SkyTables::begin(account, next, SkyOrders::All, plan.everyHarmonic);
     if (!tables) return tables.error();
     nextSky.reset();
     if (how == AirChange::Recompute) {
@@ -259,21 +277,24 @@ Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
   return {};
 }
 
-void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s) {
+void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s, bool bare) {
+  const std::optional<double> fixed_ev = view.exposure_ev ? view.exposure_ev : scene.output.exposure_ev;
   timer.begin("composite");
-  composite->run(frame.block, view.exposure_ev.value_or(scene.output.exposure_ev.value_or(0)));
+  if (bare) composite->runBare(frame.block, fixed_ev.value_or(0));
+  else composite->run(frame.block, fixed_ev.value_or(0));
   timer.end();
   if (!exposure) return;
   timer.begin("exposure");
   if (!view.exposure_ev && (sinceLast_s || !exposure->metered()))
     exposure->meter(composite->radiance(), sinceLast_s.value_or(std::numeric_limits<double>::infinity()));
-  exposure->show(composite->radiance(), composite->display(), view.exposure_ev);
+  exposure->show(composite->radiance(), composite->display(), fixed_ev);
   timer.end();
 }
 
 double Renderer::Impl::shown_ev(const View& view) const {
   if (view.exposure_ev) return *view.exposure_ev;
-  return exposure ? exposure->reached_ev() : scene.output.exposure_ev.value_or(0);
+  if (scene.output.exposure_ev) return *scene.output.exposure_ev;
+  return exposure ? exposure->reached_ev() : 0;
 }
 
 FrameStats Renderer::Impl::report(FrameStats stats) const {
@@ -296,17 +317,72 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Context& context, const 
   return renderer;
 }
 
+// Is nothing but the background seen? Then the rest of the frame is left out.
+bool Renderer::Impl::bareNow(const View& view, FrameStats& stats) {
+  if (!plan.air && !plan.clouds) return false;
+  PlanFor now = planFor();
+  now.view = view;
+  const auto unseen = nothingSeen(scene, now);
+  if (!unseen || !composite->prepareBare()) return false;
+  stats.leftOut = unseen->name;
+  return true;
+}
+
+// Nothing was streamed for a while, and the camera may be anywhere: what is on its way is applied, and the tree's answer for here is
+// waited for, as after a cut.
+void Renderer::Impl::catchUp(const ViewFrame& frame, FrameStats& stats) {
+  for (bool here = false; !here || !asked.empty();) {
+    if (asked.empty()) ask(frame, settings.bricksPerFrame, true), here = true;
+    FrameEdits edits = streamer->take(asked.front());
+    asked.pop_front();
+    const std::vector<BrickJob> generate = std::move(edits.generate);
+    apply(std::move(edits), frame.position_m, stats);
+    bricks->generate(*tree, generate, step);
+    stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
+  }
+  clouds->forget();
+}
+
+// Would this frame be the last one again? Once every pixel was marched in a tree that rests, and edits on their way had the time to come,
+// marching it again changes nothing.
+bool Renderer::Impl::asBefore(const View& view) const {
+  return !plan.redraw && !exposure && !nextSky && shownView(view) && stillFrames > kLatency && marchedFrames >= kRound;
+}
+
+bool Renderer::Impl::shownView(const View& view) const {
+  return shown && view.position_m == shown->position_m && view.orientation == shown->orientation && view.fov_deg == shown->fov_deg &&
+         view.exposure_ev == shown->exposure_ev;
+}
+
+void Renderer::Impl::remember(const View& view, const FrameStats& stats, bool treeChanged) {
+  const bool still = shownView(view) && !treeChanged && (!plan.clouds || last.stats.settled || away);
+  const bool all = !plan.clouds || away || stats.counters.marchedPixels == std::uint64_t(settings.width) * std::uint64_t(settings.height);
+  stillFrames = still ? stillFrames + 1 : 0;
+  marchedFrames = all ? kRound : still ? marchedFrames + 1 : 0;
+  shown = view;
+  shownNan = stats.counters.nanPixels;
+}
+
 FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s) {
   Impl& r = *impl_;
   FrameStats stats;
   stats.frame = r.frameNumber++;
+  if (r.asBefore(view)) {
+    stats.leftOut = "nothing-moves";
+    stats.counters.nanPixels = r.shownNan;
+    stats.exposure_ev = r.shown_ev(view);
+    return r.report(stats);
+  }
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
   const ViewFrame frame = r.frameOf(view);
   if (!r.settings.reprojection) mode = FrameMode::Full;
 
   FrameEdits edits;
-  bool haveEdits = false;
-  if (r.plan.clouds) {
+  bool haveEdits = false, treeChanged = false;
+  const bool bare = r.bareNow(view, stats), back = r.plan.clouds && r.away && !bare;
+  r.away = bare;
+  if (back) r.catchUp(frame, stats), treeChanged = true;
+  if (r.plan.clouds && !bare && !back) {
     const bool due = r.asked.size() >= kLatency;
     if (due && (r.settings.waitForEdits || r.streamer->ready(r.asked.front()))) {
       const double waitFrom = gpu::wall_ms();
@@ -314,10 +390,11 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
       stats.wait_ms = gpu::wall_ms() - waitFrom;
       r.asked.pop_front();
       haveEdits = true;
+      treeChanged = !edits.nodes.empty() || !edits.dirty.empty() || !edits.light.empty() || !edits.generate.empty();
     }
   }
-  r.beginPicture(frame);
-  if (r.plan.clouds) {
+  r.beginPicture(frame, bare);
+  if (r.plan.clouds && !bare) {
     std::vector<BrickJob> generate;
     if (haveEdits) {
       generate = std::move(edits.generate);
@@ -332,20 +409,21 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
     }
     r.tree->bind();
     r.clouds->run(frame, mode, r.scene, r.timer);
-    stats.bricksGenerated = static_cast<std::uint32_t>(generate.size());
+    stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     r.endPicture(frame, view, sinceLast_s);
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
     r.timer.end();
-    if (!r.asked.empty() || haveEdits || r.step == 0 || r.settings.waitForEdits) r.ask(frame, r.settings.bricksPerFrame, false);
+    if (!r.asked.empty() || haveEdits || back || r.step == 0 || r.settings.waitForEdits) r.ask(frame, r.settings.bricksPerFrame, false);
   } else {
-    r.endPicture(frame, view, sinceLast_s);
+    r.endPicture(frame, view, sinceLast_s, bare);
   }
   shared::Counters counted{};
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   r.counters.download(0, std::as_writable_bytes(std::span(&counted, 1)));
   stats.counters = {counted.nanPixels, counted.holes, counted.marchedPixels, counted.rejectedPixels, counted.cells, counted.samples};
   stats.exposure_ev = r.shown_ev(view);  // the counters have been waited for: this is a copy
+  r.remember(view, stats, treeChanged);
   stats.passes = r.timer.collect();
   stats.wall_ms = gpu::wall_ms() - wall0;
   stats.cpu_ms = gpu::processCpu_ms() - cpu0;
@@ -355,7 +433,9 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
 FrameStats Renderer::settle(const View& view, const std::function<bool(double)>& progress) {
   Impl& r = *impl_;
   FrameStats stats;
-  if (!r.plan.clouds) return r.report(stats);
+  r.stillFrames = 0;
+  if (!r.plan.clouds || r.bareNow(view, stats)) return r.report(stats);
+  r.away = false;
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
   const ViewFrame frame = r.frameOf(view);
   std::uint64_t made = 0;
@@ -367,7 +447,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     FrameEdits edits = r.streamer->take(r.asked.front());
     r.asked.pop_front();
     const std::vector<BrickJob> generate = std::move(edits.generate);
-    r.apply(std::move(edits), view.position_m, stats);
+    r.apply(std::move(edits), view.position_m, stats, r.plan.sunMayMove);
     batches += r.last.light.empty() ? 0 : 1;
     for (const BrickJob& job : r.last.light) lit[job.brick] = job;
     r.timer.begin("bricks");
@@ -379,14 +459,15 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     if (progress && !progress(double(made) / std::max(1.0, double(made) + left))) break;
     if (r.last.frame >= first && r.last.stats.settled && generate.empty() && r.asked.empty()) break;
   }
-  if (r.plan.sun && batches > 1) {
-    // The first bricks were lit when their neighbours were still coarse. Now that all are there, the light of all is made anew.
+  // Light is made once all bricks are there, as nobody looks before. If it was made before, the first bricks' neighbours were still coarse.
+  if (r.plan.sun && batches > (r.plan.sunMayMove ? 1 : 0)) {
     std::vector<BrickJob> all;
     for (const auto& [brick, job] : lit) all.push_back(job);
     r.timer.begin("light");
     r.bricks->light(*r.tree, all);
     r.timer.end();
   }
+  if (!r.plan.sunMayMove && progress) progress(1);
   r.clouds->forget();
   stats.passes = r.timer.collect();
   stats.wall_ms = gpu::wall_ms() - wall0;
@@ -397,6 +478,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
 Result<void> Renderer::setAir(const Scene& changed, AirChange how) { return impl_->setAir(changed, how); }
 Result<void> Renderer::setMarch(const Quality& quality) {
   auto& now = impl_->scene.quality;
+  impl_->stillFrames = 0;
   now.integrator = quality.integrator, now.stepRule = quality.stepRule, now.skipEmpty = quality.skipEmpty;
   now.step = quality.step, now.detail = quality.detail;
   return impl_->clouds ? impl_->clouds->use(now) : Result<void>{};
@@ -410,6 +492,7 @@ void Renderer::preview(const View& view) {
 void Renderer::Impl::drawAside(const View& view, const std::function<void()>& march) {
   const ViewFrame frame = frameOf(view);
   const bool timed = std::exchange(timer.enabled, false);
+  stillFrames = 0;
   beginPicture(frame);
   if (plan.clouds) {
     updateTreeBlock(view.position_m);
@@ -454,6 +537,7 @@ Image8 Renderer::image() const {
 
 ImageF Renderer::radiance() const {
   ImageF image{impl_->settings.width, impl_->settings.height, {}};
+  if (!impl_->plan.linear) return {};
   image.rgba.resize(std::size_t(image.width) * std::size_t(image.height) * 4);
   glGetTextureImage(impl_->composite->radiance().id(), 0, GL_RGBA, GL_FLOAT, GLsizei(image.rgba.size() * sizeof(float)), image.rgba.data());
   return image;

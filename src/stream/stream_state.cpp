@@ -42,6 +42,7 @@ struct StreamState::Impl {
   }
 
   FrameEdits step(const FrameInput& input);
+  SelectionView lookFrom() const;
   void plant(FrameEdits& edits);
   void receive(const std::vector<BrickResult>& results);
   void publishIfComplete(GroupIndex group);
@@ -75,6 +76,14 @@ struct StreamState::Impl {
   std::uint64_t steps = 0;
 };
 
+SelectionView StreamState::Impl::lookFrom() const {
+  SelectionView view = motion.view();
+  view.cloudBase_m = source.base_m();
+  view.cloudTop_m = source.top_m();
+  if (settings.deck) view.deckTop_m = settings.deck->top_m, view.deckFloor_m = settings.deck->floor_m;
+  return view;
+}
+
 // The root and its seven unused siblings: the GPU's buffer starts as anything.
 void StreamState::Impl::plant(FrameEdits& edits) {
   planted = true;
@@ -101,9 +110,7 @@ void StreamState::Impl::receive(const std::vector<BrickResult>& results) {
 
 // Brings the tree to what selection wants. True if it was so already.
 bool StreamState::Impl::reselect() {
-  SelectionView view = motion.view();
-  view.cloudBase_m = source.base_m();
-  view.cloudTop_m = source.top_m();
+  const SelectionView view = lookFrom();
   select(tree, root, view, selectionSettings, bounds, selection);
   bool same = selection.complete && selection.added.empty();
   // Merges first: their places are taken again. Of nested ones only the topmost is told.
@@ -228,9 +235,7 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
   const bool idle = !selectionStale && tree.pendingBricks() == 0;
   if (idle) following = false;
   if (work || drawnDetail != drawnBefore) {
-    SelectionView view = motion.view();
-    view.cloudBase_m = source.base_m();
-    view.cloudTop_m = source.top_m();
+    const SelectionView view = lookFrom();
     bandBase_m = std::numeric_limits<float>::infinity();
     bandTop_m = -bandBase_m;
     if (tree.group(kRootGroup).reachable) findBand(kRootNode, NodeView(root, view), {});

@@ -32,7 +32,7 @@ class ProbeClouds(unittest.TestCase):
                 json.dump(SCENE, f)
             with open(file, "w", encoding="utf-8") as f:
                 f.write(rays)
-            return subprocess.run([WELKIN, "probe", scene, "--rays", file, "--method", "march", "--quiet", *more], capture_output=True, text=True, check=False)
+            return subprocess.run([WELKIN, "probe", scene, "--rays", file, *(more if "--method" in more else ("--method", "march", *more)), "--quiet"], capture_output=True, text=True, check=False)
 
     def test_transmittance_of_a_uniform_shell(self):
         done = self.probe()
@@ -53,6 +53,16 @@ class ProbeClouds(unittest.TestCase):
         mu, radius = math.cos(math.radians(zenith_deg)), 6360000.0
         end = lambda h: math.sqrt((radius * mu) ** 2 + 2 * radius * h + h * h) - radius * mu
         return 0.001 * (end(2000) - end(1000))
+
+    def test_the_reference_agrees_in_transmittance_and_roughly_in_light(self):
+        done = self.probe("--method", "reference", "--relative-error", "0.1", "--max-paths", "5000")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        march = list(csv.DictReader(io.StringIO(self.probe().stdout)))
+        for mine, other in zip(csv.DictReader(io.StringIO(done.stdout)), march):
+            self.assertAlmostEqual(float(mine["transmittance_550"]), float(other["transmittance_550"]), delta=0.003)
+            radiance, error = float(mine["radiance_550"]), float(mine["standard_error_550"])
+            # the light model is off by up to 2.5 from below thin cloud (docs/reference.md)
+            self.assertLessEqual(abs(math.log((radiance + 1e-9) / (float(other["radiance_550"]) + 1e-9))), math.log(3) + 4 * error / (radiance + 1e-9))
 
     def test_what_clouds_do_not_allow(self):
         done = self.probe("--orders", "1")

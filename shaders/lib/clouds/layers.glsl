@@ -1,4 +1,4 @@
-// Layered procedural clouds, with or without a cover map.
+// Layered procedural clouds, with or without a cover map. ONE_LAYER: there is one, whatever the type of the weather.
 #include "welkin/shared/cloud_column.glsl.h"
 
 shared float s_cover[64], s_type[64];
@@ -6,6 +6,7 @@ shared uint s_coverHigh, s_typeLow, s_typeHigh, s_layers;
 
 // Once a brick, by all 64 invocations: the weather on its lattice, and which layers can reach it.
 void prepareSource(uvec3 corner, uint level, uint index) {
+#if !ONE_LAYER
   if (index == 0u) {
     s_coverHigh = 0u;
     s_typeHigh = 0u;
@@ -13,7 +14,13 @@ void prepareSource(uvec3 corner, uint level, uint index) {
     s_layers = 0u;
   }
   barrier();
-  Weather weather = weatherAt(weatherPoint(corner, level, uvec3(index & 3u, (index >> 2u) & 3u, index >> 4u)), level);
+#endif
+  uvec3 at = weatherPoint(corner, level, uvec3(index & 3u, (index >> 2u) & 3u, index >> 4u));
+#if ONE_LAYER
+  s_cover[index] = cloudCover(at, level);
+  barrier();
+#else
+  Weather weather = weatherAt(at, level);
   s_cover[index] = weather.cover;
   s_type[index] = weather.type;
   atomicMax(s_coverHigh, floatBitsToUint(weather.cover));
@@ -33,6 +40,7 @@ void prepareSource(uvec3 corner, uint level, uint index) {
       atomicOr(s_layers, 1u << index);
   }
   barrier();
+#endif
 }
 
 // Extinctions in 1/m of the eight samples along z from sample (x, y, 0) of the brick.
@@ -42,11 +50,16 @@ float[8] sourceColumn(uvec3 corner, uint level, uvec2 xy) {
   uvec2 i = min(uvec2(at), uvec2(2u));
   vec2 f = at - vec2(i);
   uint base = i.x + 4u * i.y;
-  float coverPlane[4], typePlane[4];
+  float coverPlane[4];
+#if !ONE_LAYER
+  float typePlane[4];
+#endif
   for (uint z = 0u; z < 4u; ++z) {
     uint k = base + 16u * z;
     coverPlane[z] = mix(mix(s_cover[k], s_cover[k + 1u], f.x), mix(s_cover[k + 4u], s_cover[k + 5u], f.x), f.y);
+#if !ONE_LAYER
     typePlane[z] = mix(mix(s_type[k], s_type[k + 1u], f.x), mix(s_type[k + 4u], s_type[k + 5u], f.x), f.y);
+#endif
   }
   Column8 steps, height, cover, type, density;
   for (uint k = 0u; k < 8u; ++k) {
@@ -56,9 +69,16 @@ float[8] sourceColumn(uvec3 corner, uint level, uvec2 xy) {
     float z = float(k) * (3.0 / 7.0);
     uint j = min(k * 3u / 7u, 2u);
     cover.v[k] = mix(coverPlane[j], coverPlane[j + 1u], z - float(j));
+#if ONE_LAYER
+    type.v[k] = 0.0;
+#else
     type.v[k] = mix(typePlane[j], typePlane[j + 1u], z - float(j));
+#endif
     density.v[k] = 0.0;
   }
+#if ONE_LAYER
+  density = layerColumn(density, 0u, p, level, steps, height, cover, type);
+#else
   uint layers = s_layers;
   bool any = layers != 0u;
   do {
@@ -68,5 +88,6 @@ float[8] sourceColumn(uvec3 corner, uint level, uvec2 xy) {
   } while (any && layers != 0u);
   if (!any)
     for (uint k = 0u; k < 8u; ++k) density.v[k] = 0.0;
+#endif
   return density.v;
 }

@@ -6,7 +6,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = WK_CAMERA_BINDING) uniform CameraUniforms { CameraBlock camera; };
 layout(std430, binding = WK_COUNTERS_BINDING) buffer CounterBuffer { Counters counters; };
+#if OPT_LINEAR
 layout(rgba32f, binding = 0) uniform writeonly image2D u_radiance;
+#endif
 #if OPT_DISPLAY
 layout(rgba8, binding = 1) uniform writeonly image2D u_display;
 #endif
@@ -19,7 +21,9 @@ layout(binding = WK_SKY_VIEW_TRANSMITTANCE_UNIT) uniform sampler2D u_viewDepth;
 #endif
 #if OPT_CLOUDS
 layout(binding = WK_CLOUD_LIGHT_UNIT) uniform sampler2D u_cloudLight;
+#if OPT_AIR || OPT_GROUND
 layout(binding = WK_CLOUD_AUX_UNIT) uniform sampler2D u_cloudAux;
+#endif
 #endif
 #if OPT_ALBEDO_MAP
 layout(binding = WK_ALBEDO_UNIT) uniform sampler2D u_albedoMap;
@@ -46,8 +50,11 @@ vec3 groundLight(Ray ray, float visibility) {
 vec3 background(Ray ray, float visibility) {
   vec3 light = vec3(0.0);
 #if OPT_SUN
+#if OPT_GROUND
   if (ray.ground_m >= 0.0) light = groundLight(ray, visibility);
-  else light = sunDisc(ray.dir, u_sunDir, u_sunRadius_rad, u_pixel_rad, u_sunIrradiance);
+  else
+#endif
+    light = sunDisc(ray.dir, u_sunDir, u_sunRadius_rad, u_pixel_rad, u_sunIrradiance);
 #endif
   return light;
 }
@@ -61,7 +68,9 @@ void main() {
   vec2 aux = vec2(0.0, 1.0);
 #if OPT_CLOUDS
   cloud = texelFetch(u_cloudLight, pixel, 0);
+#if OPT_AIR || OPT_GROUND
   aux = texelFetch(u_cloudAux, pixel, 0).xy;
+#endif
 #endif
   vec3 light = background(ray, aux.y);
 #if OPT_AIR
@@ -84,7 +93,9 @@ void main() {
     atomicAdd(counters.nanPixels, 1u);
     light = kNanPaint;
   }
+#if OPT_LINEAR
   imageStore(u_radiance, pixel, vec4(light, 1.0 - cloud.a));
+#endif
 #if OPT_DISPLAY
   imageStore(u_display, pixel, vec4(broken ? kNanPaint : shown, 1.0));
 #endif

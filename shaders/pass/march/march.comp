@@ -22,8 +22,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = WK_CAMERA_BINDING) uniform CameraUniforms { CameraBlock camera; };
 layout(std430, binding = WK_COUNTERS_BINDING) buffer CounterBuffer { Counters counters; };
 layout(rgba16f, binding = 0) uniform writeonly image2D u_light;
+#if OPT_AUX
 layout(rg32f, binding = 1) uniform writeonly image2D u_aux;
+#endif
+#if OPT_HISTORY
 layout(r8ui, binding = 3) uniform writeonly uimage2D u_age;
+#endif
 #if PIXELS == PIXELS_SIXTEENTH
 #include "lib/reproject.glsl"
 layout(rgba16f, binding = 2) uniform writeonly image2D u_change;
@@ -95,11 +99,17 @@ void main() {
     light = cloud.sun * colours.sun + cloud.sky * colours.sky + cloud.ground * colours.ground;
   }
   float shadow = 1.0;
+#if OPT_GROUND
   if (view.ground_m >= 0.0 && cloud.transmittance > 0.0 && tree.sunDir.w > 0.0)
     shadow = cloudShadow(sunDepth(position + dvec3(view.dir) * double(view.ground_m), 0.0));
+#endif
   imageStore(u_light, pixel, vec4(light, cloud.transmittance));
+#if OPT_AUX
   imageStore(u_aux, pixel, vec4(cloud.distance_m, shadow, 0.0, 0.0));
+#endif
+#if OPT_HISTORY
   imageStore(u_age, pixel, uvec4(0u));
+#endif
 #if PIXELS == PIXELS_SIXTEENTH
   History history = findHistory(pixel, view.dir, u_size);
   history.still = history.still || !history.valid;  // without history: against what was here, so that a great change is noticed

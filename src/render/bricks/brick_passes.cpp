@@ -24,7 +24,8 @@ std::uint64_t BrickPasses::bytes(const DensitySource& source) {
          std::max<std::size_t>(source.shaderParams().size() * 4, 16);
 }
 
-Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, bool sun, double light) {
+Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, const FramePlan& plan,
+                                        double light) {
   BrickPasses passes;
   auto jobs = gpu::Buffer::create(account, "brick jobs", kSlots * kBatch * sizeof(shared::GpuBrickJob));
   if (!jobs) return jobs.error();
@@ -43,9 +44,10 @@ Result<BrickPasses> BrickPasses::create(gpu::MemoryAccount& account, const Densi
   }
   gpu::Defines defines = tree.defines();
   defines.emplace_back("SOURCE_SHADER", source.shader());
+  defines.emplace_back("ONE_LAYER", plan.oneLayer ? "1" : "0");
   auto generate = gpu::Program::compute("pass/bricks/generate.comp", defines);
   if (!generate) return generate.error();
-  if (sun) {
+  if (plan.sun) {
     gpu::Defines lightDefines = tree.defines();
     if (light != 1) {
       const auto samples = [light](int n) { return std::to_string(std::max(1, int(std::lround(light * n)))); };

@@ -5,13 +5,14 @@
 
 #include "render/tree/resident_tree.h"
 #include "welkin/clouds/density_source.h"
+#include "welkin/render/frame_plan.h"
 
 namespace welkin {
 
 class BrickPasses {
  public:
   // Without a sun the light pass is not compiled, and light() may not be called.
-  static Result<BrickPasses> create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, bool sun, double light);
+  static Result<BrickPasses> create(gpu::MemoryAccount& account, const DensitySource& source, const ResidentTree& tree, const FramePlan& plan, double light);
 
   void generate(const ResidentTree& tree, const std::vector<BrickJob>& jobs, std::uint64_t frame);
   void light(const ResidentTree& tree, const std::vector<BrickJob>& jobs);

@@ -35,6 +35,15 @@ AlbedoPicture halved(const AlbedoPicture& in) {
   return out;
 }
 
+Result<gpu::Program> composite(const CompositeParts& parts, bool albedoMap, ToneCurve curve) {
+  const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
+  gpu::Defines defines{{"OPT_CLOUDS", onOff(parts.clouds)}, {"OPT_AIR", onOff(parts.air)},       {"OPT_SUN", onOff(parts.sun)},
+                       {"OPT_GROUND", onOff(parts.ground)}, {"OPT_ALBEDO_MAP", onOff(albedoMap)}, {"OPT_LINEAR", onOff(parts.linear)},
+                       {"OPT_DISPLAY", onOff(parts.display)}};
+  if (parts.display) defines.emplace_back("TONE_CURVE", toneCurveFunction(curve));
+  return gpu::Program::compute("pass/composite/composite.comp", defines);
+}
+
 }  // namespace
 
 void CompositePass::use(const Scene& scene) {
@@ -46,32 +55,44 @@ void CompositePass::use(const Scene& scene) {
   sunRadius_rad_ = static_cast<float>(scene.sun->angularRadius_rad);
 }
 
-Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const Scene& scene, int width, int height,
+CompositeParts::CompositeParts(const Scene& scene)
+    : clouds(scene.clouds), air(scene.atmosphere), sun(scene.sun), display(!planFrame(scene).metered) {}
+
+CompositeParts::CompositeParts(const FramePlan& plan)
+    : clouds(plan.clouds), air(plan.air), sun(plan.sun), ground(plan.ground), linear(plan.linear), display(!plan.metered) {}
+
+Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const Scene& scene, const CompositeParts& parts, int width, int height,
                                             const AlbedoPicture* albedo) {
   CompositePass pass;
   pass.account_ = &account;
   pass.width_ = width, pass.height_ = height;
   pass.use(scene);
-  const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
-  pass.shows_ = !planFrame(scene).metered;
-  gpu::Defines defines{{"OPT_CLOUDS", onOff(scene.clouds.has_value())},
-                       {"OPT_AIR", onOff(scene.atmosphere.has_value())},
-                       {"OPT_SUN", onOff(scene.sun.has_value())},
-                       {"OPT_ALBEDO_MAP", onOff(albedo != nullptr)},
-                       {"OPT_DISPLAY", onOff(pass.shows_)}};
-  if (pass.shows_) defines.emplace_back("TONE_CURVE", toneCurveFunction(scene.output.toneCurve));
-  auto program = gpu::Program::compute("pass/composite/composite.comp", defines);
+  pass.parts_ = parts;
+  pass.toneCurve_ = scene.output.toneCurve;
+  auto program = composite(parts, albedo != nullptr, pass.toneCurve_);
   if (!program) return program.error();
   pass.program_ = std::move(*program);
-  auto radiance = target(account, GL_RGBA32F, width, height);
-  if (!radiance) return radiance.error();
-  pass.radiance_ = std::move(*radiance);
+  if (parts.linear) {
+    auto radiance = target(account, GL_RGBA32F, width, height);
+    if (!radiance) return radiance.error();
+    pass.radiance_ = std::move(*radiance);
+  }
   auto display = target(account, GL_RGBA8, width, height);
   if (!display) return display.error();
   pass.display_ = std::move(*display);
   if (albedo)
     if (auto r = pass.loadAlbedo(account, *albedo); !r) return r.error();
   return pass;
+}
+
+Result<void> CompositePass::prepareBare() {
+  if (bare_.valid()) return {};
+  CompositeParts bare = *parts_;
+  bare.clouds = bare.air = false;
+  auto program = composite(bare, false, toneCurve_);
+  if (!program) return program.error();
+  bare_ = std::move(*program);
+  return {};
 }
 
 std::uint64_t CompositePass::albedoBytes(int width, int height) {
@@ -107,29 +128,29 @@ CompositePass::~CompositePass() {
 }
 
 void CompositePass::swap(CompositePass& o) noexcept {
-  std::swap(program_, o.program_);
+  std::swap(program_, o.program_), std::swap(bare_, o.bare_);
   radiance_.swap(o.radiance_);
   display_.swap(o.display_);
   std::swap(width_, o.width_), std::swap(height_, o.height_);
   std::swap(albedo_, o.albedo_), std::swap(toSun_, o.toSun_), std::swap(sunIrradiance_, o.sunIrradiance_);
-  std::swap(sunRadius_rad_, o.sunRadius_rad_), std::swap(shows_, o.shows_);
+  std::swap(sunRadius_rad_, o.sunRadius_rad_), std::swap(parts_, o.parts_), std::swap(toneCurve_, o.toneCurve_);
   std::swap(albedoMap_, o.albedoMap_), std::swap(albedoBytes_, o.albedoBytes_), std::swap(account_, o.account_);
 }
 
-void CompositePass::run(const shared::CameraBlock& camera, double exposure_ev) const {
+void CompositePass::run(const gpu::Program& program, const shared::CameraBlock& camera, double exposure_ev) const {
   const glm::dvec3 up = shared::xyz(camera.up);
   const double pixel_rad = 2 * glm::length(up) / height_;
   if (albedoMap_) glBindTextureUnit(WK_ALBEDO_UNIT, albedoMap_);
-  program_.set("u_size", glm::ivec2(width_, height_));
-  program_.set("u_albedo", albedo_);
-  program_.set("u_sunDir", toSun_);
-  program_.set("u_sunIrradiance", sunIrradiance_);
-  program_.set("u_sunRadius_rad", sunRadius_rad_);
-  program_.set("u_pixel_rad", static_cast<float>(pixel_rad));
-  program_.set("u_exposure", exposureScale(exposure_ev));
-  radiance_.bindImage(0, GL_WRITE_ONLY);
-  if (shows_) display_.bindImage(1, GL_WRITE_ONLY);
-  program_.dispatch(static_cast<unsigned>(width_ + 7) / 8, static_cast<unsigned>(height_ + 7) / 8);
+  program.set("u_size", glm::ivec2(width_, height_));
+  program.set("u_albedo", albedo_);
+  program.set("u_sunDir", toSun_);
+  program.set("u_sunIrradiance", sunIrradiance_);
+  program.set("u_sunRadius_rad", sunRadius_rad_);
+  program.set("u_pixel_rad", static_cast<float>(pixel_rad));
+  program.set("u_exposure", exposureScale(exposure_ev));
+  if (parts_->linear) radiance_.bindImage(0, GL_WRITE_ONLY);
+  if (parts_->display) display_.bindImage(1, GL_WRITE_ONLY);
+  program.dispatch(static_cast<unsigned>(width_ + 7) / 8, static_cast<unsigned>(height_ + 7) / 8);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }
 

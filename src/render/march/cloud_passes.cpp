@@ -44,31 +44,36 @@ ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, 
   return f;
 }
 
-Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, bool air,
+Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan,
                                         const Quality& quality) {
   CloudPasses passes;
   passes.width_ = width;
   passes.height_ = height;
-  for (int i = 0; i < 2; ++i) {
-    auto light = gpu::Texture::create(account, "cloud history", {.format = GL_RGBA16F, .width = width, .height = height, .frameTarget = true});
-    if (!light) return light.error();
-    auto aux = gpu::Texture::create(account, "cloud history", {.format = GL_RG32F, .width = width, .height = height, .frameTarget = true});
-    if (!aux) return aux.error();
-    auto age = gpu::Texture::create(account, "cloud history", {.format = GL_R8UI, .width = width, .height = height, .filter = GL_NEAREST, .frameTarget = true});
-    if (!age) return age.error();
-    passes.age_[i] = std::move(*age);
-    passes.light_[i] = std::move(*light);
-    passes.aux_[i] = std::move(*aux);
+  passes.history_ = plan.history;
+  const auto target = [&](gpu::Texture& out, gpu::TextureSpec spec) -> Result<void> {
+    spec.frameTarget = true;
+    auto made = gpu::Texture::create(account, "cloud history", spec);
+    if (!made) return made.error();
+    out = std::move(*made);
+    return {};
+  };
+  for (int i = 0; i < (plan.history ? 2 : 1); ++i) {
+    if (auto r = target(passes.light_[i], {.format = GL_RGBA16F, .width = width, .height = height}); !r) return r.error();
+    if (plan.aux)
+      if (auto r = target(passes.aux_[i], {.format = GL_RG32F, .width = width, .height = height}); !r) return r.error();
+    if (plan.history)
+      if (auto r = target(passes.age_[i], {.format = GL_R8UI, .width = width, .height = height, .filter = GL_NEAREST}); !r) return r.error();
   }
-  auto change = gpu::Texture::create(account, "cloud change", {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4, .frameTarget = true});
-  if (!change) return change.error();
-  passes.change_ = std::move(*change);
+  const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
+  passes.defines_ = tree.defines();
+  passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)},
+                                                 {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
+  if (auto used = passes.use(quality); !used) return used.error();
+  if (!plan.history) return passes;
+  if (auto r = target(passes.change_, {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4}); !r) return r.error();
   auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width) * std::size_t(height) * 4, GL_DYNAMIC_STORAGE_BIT, true);
   if (!pixels) return pixels.error();
   passes.pixels_ = std::move(*pixels);
-  passes.defines_ = tree.defines();
-  passes.defines_.emplace_back("OPT_AIR", air ? "1" : "0");
-  if (auto used = passes.use(quality); !used) return used.error();
   auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
   if (!reproject) return reproject.error();
   passes.reproject_ = std::move(*reproject);
@@ -85,7 +90,7 @@ Result<void> CloudPasses::use(const Quality& quality) {
   }
   Programs made;
   gpu::Program* programs[] = {&made.all, &made.sixteenth, &made.list};
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < (history_ ? 3 : 1); ++i) {
     gpu::Defines variant = defines_;
     variant.insert(variant.end(), rules.begin(), rules.end());
     variant.emplace_back("PIXELS", std::to_string(i));
@@ -101,8 +106,8 @@ void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int targ
   program.set("u_size", glm::ivec2(width_, height_));
   program.set("u_offset", offset);
   light_[target].bindImage(0, GL_WRITE_ONLY);
-  aux_[target].bindImage(1, GL_WRITE_ONLY);
-  age_[target].bindImage(3, GL_WRITE_ONLY);
+  if (aux_[target].id()) aux_[target].bindImage(1, GL_WRITE_ONLY);
+  if (history_) age_[target].bindImage(3, GL_WRITE_ONLY);
 }
 
 void CloudPasses::setLight(const gpu::Program& program, const Scene& scene) const {
@@ -117,6 +122,11 @@ void CloudPasses::setMotion(const gpu::Program& program, const ViewFrame& view) 
   program.set("u_oldForward", glm::vec3(last_.forward));
   program.set("u_oldRight", glm::vec3(last_.right / last_.tanX));
   program.set("u_oldUp", glm::vec3(last_.up / last_.tanY));
+}
+
+void CloudPasses::show(int target) const {
+  light_[target].bind(WK_CLOUD_LIGHT_UNIT);
+  if (aux_[target].id()) aux_[target].bind(WK_CLOUD_AUX_UNIT);
 }
 
 void CloudPasses::preview(const Scene& scene) { marchSpare(march_->all, scene); }
@@ -140,19 +150,19 @@ Result<void> CloudPasses::show(gpu::MemoryAccount& account, const Scene& scene, 
 
 void CloudPasses::marchSpare(const gpu::Program& program, const Scene& scene) const {
   setLight(program, scene);
-  const int spare = 1 - current_;  // the next run() writes every pixel of it
+  const int spare = history_ ? 1 - current_ : 0;  // the next run() writes every pixel of it
   march(program, {0, 0}, spare);
   program.dispatch(groups(width_, 8), groups(height_, 8));
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  light_[spare].bind(WK_CLOUD_LIGHT_UNIT);
-  aux_[spare].bind(WK_CLOUD_AUX_UNIT);
+  show(spare);
 }
 
 void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
-  for (const gpu::Program* p : {&march_->all, &march_->sixteenth, &march_->list}) setLight(*p, scene);
+  for (const gpu::Program* p : {&march_->all, &march_->sixteenth, &march_->list})
+    if (p->valid()) setLight(*p, scene);
   const int old = current_;
-  current_ = 1 - current_;
-  if (mode == FrameMode::Full || !haveHistory_) {
+  current_ = history_ ? 1 - current_ : 0;
+  if (mode == FrameMode::Full || !haveHistory_ || !history_) {
     timer.begin("march");
     march(march_->all, {0, 0}, current_);
     march_->all.dispatch(groups(width_, 8), groups(height_, 8));
@@ -192,8 +202,7 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     timer.end();
   }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  light_[current_].bind(WK_CLOUD_LIGHT_UNIT);
-  aux_[current_].bind(WK_CLOUD_AUX_UNIT);
+  show(current_);
   last_ = view;
   haveHistory_ = true;
 }

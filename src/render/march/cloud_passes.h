@@ -21,9 +21,10 @@ ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, 
 
 class CloudPasses {
  public:
-  static Result<CloudPasses> create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, bool air, const Quality& quality);
+  static Result<CloudPasses> create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan,
+                                    const Quality& quality);
   Result<void> use(const Quality& quality);  // its integrator, step rule and skipEmpty; compiled once each
-  // Expects tree, camera, counters and sky bound. Leaves the new clouds bound at WK_CLOUD_LIGHT_UNIT and WK_CLOUD_AUX_UNIT.
+  // Expects tree, camera, counters and sky bound. Leaves the new clouds bound at WK_CLOUD_LIGHT_UNIT and (if read) WK_CLOUD_AUX_UNIT.
   void run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer);
   // Marches every pixel into the spare target, which is bound as the new clouds; history stays as it is.
   void preview(const Scene& scene);
@@ -35,11 +36,13 @@ class CloudPasses {
   void march(const gpu::Program& program, glm::ivec2 offset, int target) const;
   void marchSpare(const gpu::Program& program, const Scene& scene) const;
   void setLight(const gpu::Program& program, const Scene& scene) const;
+  void show(int target) const;  // to whom puts the picture together
   void setMotion(const gpu::Program& program, const ViewFrame& view) const;
   int width_ = 0, height_ = 0, current_ = 0;
   bool haveHistory_ = false;
   std::uint32_t phase_ = 0;  // which of the 16 pixels is next
   ViewFrame last_{};
+  bool history_ = true;  // else every frame marches all pixels, into the one target there is
   gpu::Texture light_[2], aux_[2], age_[2], change_;
   gpu::Buffer pixels_;
   struct Programs {

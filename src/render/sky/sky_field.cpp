@@ -167,6 +167,11 @@ bool SkyField::advance(int rows) {
   return !done_;
 }
 
+void SkyField::letGoOfMakers() {
+  moments_ = {}, radiance_ = {}, directionList_ = {};
+  firstProgram_ = {}, nextProgram_ = {}, project_ = {}, store_ = {};
+}
+
 void SkyField::gatherRows(int rows) {
   const bool first = first_.empty();
   const gpu::Program& program = first ? firstProgram_ : nextProgram_;

@@ -27,10 +27,10 @@ constexpr double kThin = 1e-3;  // what such air adds by scattering once is 1/10
 
 }  // namespace
 
-Result<SkyModel> skyModel(const Scene& scene) {
+Result<SkyModel> skyModel(const Scene& scene, bool everyHarmonic) {
   const auto air = airBlock(scene);
   if (!air) return air.error();
-  const bool peaked = std::any_of(std::begin(air->layers), std::begin(air->layers) + air->params.layerCount, isPeaked);
+  const bool peaked = everyHarmonic || std::any_of(std::begin(air->layers), std::begin(air->layers) + air->params.layerCount, isPeaked);
   SkyModel m;
   m.name = scene.atmosphere->model;
   m.reason = "the scene asks for it";

@@ -39,15 +39,15 @@ void tablesWritten() { glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_
 
 }  // namespace
 
-Result<SkyTables> SkyTables::create(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
-  auto tables = begin(account, scene, orders);
+Result<SkyTables> SkyTables::create(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders, bool everyHarmonic) {
+  auto tables = begin(account, scene, orders, everyHarmonic);
   if (!tables) return tables.error();
   while (tables->advance(kAllRows)) {}
   return tables;
 }
 
-Result<SkyTables> SkyTables::empty(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
-  auto model = skyModel(scene);
+Result<SkyTables> SkyTables::empty(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders, bool everyHarmonic) {
+  auto model = skyModel(scene, everyHarmonic);
   if (!model) return model.error();
   if (orders == SkyOrders::First) model->maxOrders = 1, model->degree = model->zonal = 0;
   auto block = airBlock(scene, model->zonal);
@@ -62,8 +62,8 @@ Result<SkyTables> SkyTables::empty(gpu::MemoryAccount& account, const Scene& sce
   return tables;
 }
 
-Result<SkyTables> SkyTables::begin(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders) {
-  auto tables = empty(account, scene, orders);
+Result<SkyTables> SkyTables::begin(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders, bool everyHarmonic) {
+  auto tables = empty(account, scene, orders, everyHarmonic);
   if (!tables) return tables.error();
   auto field = SkyField::create(account, tables->model_, tables->block_, tables->defines_);
   if (!field) return field.error();
@@ -71,13 +71,18 @@ Result<SkyTables> SkyTables::begin(gpu::MemoryAccount& account, const Scene& sce
   return tables;
 }
 
-Result<SkyTables> SkyTables::withField(gpu::MemoryAccount& account, const Scene& scene, SkyTables& from) {
-  auto tables = empty(account, scene, SkyOrders::All);
+Result<SkyTables> SkyTables::withField(gpu::MemoryAccount& account, const Scene& scene, SkyTables& from, bool everyHarmonic) {
+  auto tables = empty(account, scene, SkyOrders::All, everyHarmonic);
   if (!tables) return tables.error();
   if (tables->model_.moments() != from.model_.moments() || tables->model_.diffuse() != from.model_.diffuse())
     return Error{"the sky's light must be made anew: another model, or other phase functions"};
   tables->field_ = std::move(from.field_);
   return tables;
+}
+
+void SkyTables::letGoOfMakers() {
+  field_->letGoOfMakers();
+  if (discDepth_.id() != 0) pointDepth_ = {};
 }
 
 double SkyTables::progress() const { return field_->progress(); }

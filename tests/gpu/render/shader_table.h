@@ -38,7 +38,8 @@ inline std::vector<ShaderVariant> shaderTable() {
   std::vector<ShaderVariant> table{{"pass/maps/build.comp", {}}, {"pass/reproject/reproject.comp", {}}};
   for (const char* textures : {"1", "2"}) {
     for (const char* source : {"lib/clouds/layers.glsl", "lib/clouds/sphere.glsl"})
-      table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}}});
+      for (const char* one : {"0", "1"})
+        table.push_back({"pass/bricks/generate.comp", {{"BRICK_TEXTURES", textures}, {"SOURCE_SHADER", source}, {"ONE_LAYER", one}}});
     table.push_back({"pass/light/light.comp", {{"BRICK_TEXTURES", textures}}});
     for (const char* format : {"rg16", "rg8"}) {  // for comparisons only
       const gpu::Defines bricks{{"BRICK_TEXTURES", textures}, {"BRICK_FORMAT", format}, {"BRICK_STEPS", format[2] == '8' ? "255.0" : "65535.0"}};
@@ -48,13 +49,24 @@ inline std::vector<ShaderVariant> shaderTable() {
       table.push_back({"pass/bricks/generate.comp", generate});
       table.push_back({"pass/light/light.comp", light});
     }
-    const auto march = [&](const char* air, int pixels, int integrator, int rule, const char* skip) {
-      table.push_back({"pass/march/march.comp", {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"INTEGRATOR", std::to_string(integrator)},
-                                                 {"STEP_RULE", std::to_string(rule) + "u"}, {"SKIP_EMPTY", skip}, {"PIXELS", std::to_string(pixels)}}});
+    struct March {
+      const char *air = "1", *ground = "1", *aux = "1", *history = "1";
+      int pixels = 0, integrator = 5, rule = 2;
+      const char* skip = "1";
     };
-    for (int pixels = 0; pixels < 4; ++pixels)
-      for (const char* air : {"0", "1"}) march(air, pixels, 5, 2, "1");
-    for (int integrator = 0; integrator < 7; ++integrator) march("1", 0, integrator, integrator % 5, integrator % 2 ? "0" : "1");
+    const auto march = [&](const March& m) {
+      table.push_back({"pass/march/march.comp",
+                       {{"BRICK_TEXTURES", textures}, {"OPT_AIR", m.air}, {"OPT_GROUND", m.ground}, {"OPT_AUX", m.aux}, {"OPT_HISTORY", m.history},
+                        {"INTEGRATOR", std::to_string(m.integrator)}, {"STEP_RULE", std::to_string(m.rule) + "u"}, {"SKIP_EMPTY", m.skip},
+                        {"PIXELS", std::to_string(m.pixels)}}});
+    };
+    for (const char* air : {"0", "1"})
+      for (const char* ground : {"0", "1"}) {
+        for (int pixels = 0; pixels < 4; ++pixels) march({.air = air, .ground = ground, .pixels = pixels});
+        march({.air = air, .ground = ground, .history = "0"});
+      }
+    march({.air = "0", .ground = "0", .aux = "0", .history = "0"});
+    for (int integrator = 0; integrator < 7; ++integrator) march({.integrator = integrator, .rule = integrator % 5, .skip = integrator % 2 ? "0" : "1"});
   }
   for (const auto& [layers, peak] : {std::pair{1, -1}, {3, 1}, {6, 5}}) {
     const auto sky = [&, layers = layers, peak = peak](const char* pass, gpu::Defines more = {}) {
@@ -71,15 +83,18 @@ inline std::vector<ShaderVariant> shaderTable() {
       sky("probe", {{"SINGLE", "1"}, {"DIFFUSE", diffuse}, {"PIECES", "6"}, {"STRETCHES", "16"}});
     }
   }
-  for (int bits = 0; bits < 16; ++bits) {
+  for (int bits = 0; bits < 64; ++bits) {
+    if ((bits & 24) == 16) continue;  // no picture of the ground without the ground: bit 4 without bit 3
     const auto on = [&](int bit) { return std::string(bits >> bit & 1 ? "1" : "0"); };
-    const gpu::Defines scene{{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_ALBEDO_MAP", on(3)}};
+    const gpu::Defines scene{{"OPT_CLOUDS", on(0)}, {"OPT_AIR", on(1)}, {"OPT_SUN", on(2)}, {"OPT_GROUND", on(3)}, {"OPT_ALBEDO_MAP", on(4)}, {"OPT_LINEAR", on(5)}};
     const auto composite = [&](gpu::Defines more) {
       more.insert(more.begin(), scene.begin(), scene.end());
       table.push_back({"pass/composite/composite.comp", std::move(more)});
     };
-    composite({{"OPT_DISPLAY", "0"}});
-    for (const char* curve : kToneCurveFunctions) composite({{"OPT_DISPLAY", "1"}, {"TONE_CURVE", curve}});
+    const bool linear = bits & 32;
+    if (linear) composite({{"OPT_DISPLAY", "0"}});
+    for (const char* curve : kToneCurveFunctions)
+      if (linear || curve == kToneCurveFunctions[0]) composite({{"OPT_DISPLAY", "1"}, {"TONE_CURVE", curve}});
   }
   table.push_back({"pass/exposure/histogram.comp", {}});
   table.push_back({"pass/exposure/adapt.comp", {}});

@@ -1,14 +1,10 @@
 // The shared functions on the GPU against the same functions compiled as C++, on seeded random inputs.
-#include <bit>
 #include <cstdio>
-#include <functional>
 
-#include "gl_fixture.h"
 #include "random32.h"
 #include "small_earth.h"
+#include "twins.h"
 #include "welkin/clouds/density_source.h"
-#include "welkin/gpu/program.h"
-#include "welkin/gpu/resources.h"
 #include "welkin/render/tone_curve.h"
 #include "welkin/shared/bindings.glsl.h"
 #include "welkin/shared/camera.glsl.h"
@@ -25,37 +21,6 @@ using namespace test;
 using namespace shared;
 
 constexpr std::size_t kRows = 10240;  // 160 groups of 64
-
-class Twins : public GlTest {
- protected:
-  // Runs a test shader over `inputs`, `rowsPerGroup` to a work group; `perRow` answers each.
-  template <class Answer, class Input>
-  std::vector<Answer> run(const std::string& shader, const std::vector<Input>& inputs, std::size_t perRow, const gpu::Defines& defines = {},
-                          GLuint binding = 0, const std::function<void(const gpu::Program&)>& prepare = {}, std::size_t rowsPerGroup = 64) {
-    auto program = gpu::Program::compute(WELKIN_SOURCE_DIR "/tests/gpu/shaders/" + shader, defines);
-    EXPECT_TRUE(program.ok()) << (program.ok() ? "" : program.error().message);
-    std::vector<Answer> answers(inputs.size() * perRow);
-    if (!program.ok()) return answers;
-    const auto in = std::move(gpu::Buffer::create(account, "inputs", inputs.size() * sizeof(Input)).value());
-    const auto out = std::move(gpu::Buffer::create(account, "answers", answers.size() * sizeof(Answer)).value());
-    in.upload(0, inputs);
-    in.bind(GL_SHADER_STORAGE_BUFFER, binding);
-    out.bind(GL_SHADER_STORAGE_BUFFER, binding + 1);
-    if (prepare) prepare(*program);
-    program->dispatch(static_cast<unsigned>(inputs.size() / rowsPerGroup));
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    out.download(0, std::as_writable_bytes(std::span(answers)));
-    return answers;
-  }
-  gpu::MemoryAccount account{64ull << 20};
-};
-
-// Distance in units in the last place; 0 and -0 are one.
-double ulps(float a, float b) {
-  if (a == b) return 0;
-  if (std::signbit(a) != std::signbit(b)) return 1e9;
-  return std::abs(double(std::bit_cast<std::int32_t>(a)) - double(std::bit_cast<std::int32_t>(b)));
-}
 
 struct Row {
   glm::uvec4 place;
@@ -130,7 +95,7 @@ TEST_F(Twins, AddressesWalksAndLevels) {
                               local.y,
                               local.z,
                               walkError(t, x.x),
-                              pastExit(t, x.x),
+                              leaveNode(walk, nodeSteps(p, level), levelSteps(level), t, x.x + 0.01f),
                               levelSteps(level),
                               detailAt(x.y * 70000, 16).parentWeight,
                               uintBitsToFloat(walk.origin.x),
@@ -251,8 +216,8 @@ TEST_F(Twins, DensityOfEverySource) {
       zero += cpu == 0;
     }
     const double n = double(answers.size());
-    std::printf("%-7s %4.1f %% partly cloudy, %4.1f %% clear, greatest difference %.1e of the maximum\n", name,
-                100 * double(partly) / n, 100 * double(zero) / n, worst);
+    std::printf("%-7s %4.1f %% partly cloudy, %4.1f %% clear, greatest difference %.1e of the maximum\n", name, 100 * double(partly) / n,
+                100 * double(zero) / n, worst);
     EXPECT_GT(double(partly), 0.05 * n) << "the comparison must meet cloud";
     EXPECT_GT(double(zero), 0.02 * n) << "and clear air";
     // A brick keeps 16 bits, steps of 1.5e-5. A column's place in a noise cell is off from a point's by a rounding, some 2e-7 of the noise;

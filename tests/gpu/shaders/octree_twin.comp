@@ -30,7 +30,7 @@ void main() {
   uvec3 to = walkTo(walk, t);
   vec3 local = nodeLocal(p, level);
   float floats[20] = float[20](walk.dirSteps.x, walk.dirSteps.y, walk.dirSteps.z, nodeExit(nodeSteps(p, level), levelSteps(level), step(0.0, dir), (2.0 * step(0.0, dir) - 1.0) * x.xyz * 1e6),
-    local.x, local.y, local.z, walkError(t, x.x), pastExit(t, x.x), levelSteps(level), detailAt(x.y * 70000.0, 16u).parentWeight,
+    local.x, local.y, local.z, walkError(t, x.x), leaveNode(walk, nodeSteps(p, level), levelSteps(level), t, x.x + 0.01), levelSteps(level), detailAt(x.y * 70000.0, 16u).parentWeight,
     uintBitsToFloat(walk.origin.x), uintBitsToFloat(to.x), uintBitsToFloat(to.y), uintBitsToFloat(to.z), walk.metrePerStep.x, walk.metrePerStep.y,
     encodeDepth(x.z * 200.0), decodeDepth(x.w), maxCodeValue(p.y & 31u));
   for (uint i = 0u; i < 20u; ++i) answers[o + 20u + i] = floatBitsToUint(floats[i]);

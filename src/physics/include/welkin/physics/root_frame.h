@@ -7,6 +7,8 @@
 
 namespace welkin {
 
+inline constexpr double kCloudShell_m = 20'000;  // the octree's root reaches this far above the ground
+
 struct RootFrame {
   double planetRadius_m = 0;
   double half_m = 0;  // half the cube's edge

@@ -59,8 +59,12 @@ class SourceField final : public CloudField {
   std::uint64_t contentHash() const override;
   // Optical depth from a point towards the sun, at most kOpaqueDepth, which it is behind the planet too.
   double sunDepth(glm::dvec3 position_planet) const;
+  // Optical depth of a ray up to where it leaves the clouds, meets the ground, or to a distance.
+  double opticalDepth(const CameraRay& ray, double most_m) const;
 
  private:
+  double depthWithin(SourceWalk& walk, Stretch stretch, double most) const;
+
   const DensitySource& source_;
   const RootFrame& root_;
   SourceSettings settings_;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ struct RenderSettings {
   double light = 1;                     // reach and samples of the rays to the sun; others than 1 for comparisons
   bool timing = true;                   // per-pass times (on software GL: glFinish after each pass)
   bool waitForEdits = true;             // true: edits of frame k apply at frame k + 2, whatever it takes (deterministic); false: when ready
+  std::optional<View> onlyView = {};    // one picture, of this view: frames march every pixel, and of other views would lack parts
+  bool linear = true;                   // radiance() will be read; else it may be empty
+  std::set<std::string> forced = {};    // reasons to leave something out that are not to hold (LeftOut::name)
 };
 
 // What the frame's march and the checks counted, whole picture.
@@ -52,6 +56,7 @@ struct FrameStats {
   std::uint64_t bytesUsed = 0, bytesBudget = 0, frameTargetBytes = 0;
   double sampleDetail = 0;
   double exposure_ev = 0;  // at which the picture is shown: of the view, of the scene, or metered
+  std::string leftOut;     // why all but the background was left out of this frame, or all of it (LeftOut::name); empty: it was drawn
   double skyProgress = 1;  // of the light of a changed air (Renderer::setAir), 0..1; 1: it is shown
 };
 
@@ -93,9 +98,9 @@ class Renderer {
   TreeData tree(const View& view);
   Result<void> drawWith(const View& view, std::span<const shared::CloudWeights> clouds);
   Image8 image() const;
-  ImageF radiance() const;
+  ImageF radiance() const;  // without pixels if nobody was to read it (RenderSettings::linear)
   double shownDetail(const View& view) const;  // nodes a radian past which voxels are finer than this view's pixels
-  const FramePlan& plan() const;
+  const FramePlan& plan() const;  // of all frames; FrameStats::leftOut says what one frame does without
   const Scene& scene() const;
   const gpu::MemoryAccount& memory() const;
   std::vector<std::string> notes() const;  // one line each: what a user should know (data that was missing, ...)

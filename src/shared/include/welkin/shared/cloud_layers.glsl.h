@@ -43,10 +43,13 @@ WK_FN uvec3 weatherPoint(uvec3 corner, uint level, uvec3 i) {
   return uvec3(saturatingAdd(corner.x, i.x == 3u ? size : at.x), saturatingAdd(corner.y, i.y == 3u ? size : at.y),
                saturatingAdd(corner.z, i.z == 3u ? size : at.z));
 }
-WK_FN Weather weatherAt(WK_SOURCE_PARAM uvec3 p, uint level) {
+WK_FN float cloudCover(WK_SOURCE_PARAM uvec3 p, uint level) {
   float cover = F(1.0);
   if (WK_HEADER.coverMips > 0u) cover = coverAt(WK_SOURCE_ARG coverPlace(p), WK_HEADER.coverMip[level]);
-  return WK_NEW(Weather, cover, cloudType(WK_SOURCE_ARG p));
+  return cover;
+}
+WK_FN Weather weatherAt(WK_SOURCE_PARAM uvec3 p, uint level) {
+  return WK_NEW(Weather, cloudCover(WK_SOURCE_ARG p, level), cloudType(WK_SOURCE_ARG p));
 }
 // Mean of clamp(x, 0, 1) over [a, b], a < b. Exactly 0 or 1 where that is constant.
 WK_FN float rampMean(float a, float b) {

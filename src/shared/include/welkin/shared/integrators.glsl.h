@@ -86,6 +86,16 @@ WK_FN SegmentGains segmentGains(uint rule, vec4 extinction_per_m, float length_m
   return WK_NEW(SegmentGains, transmittanceOf(x.x), gain, gain);
 }
 
+// kAdaptive: how far the segment's light and opacity may be off, per unit of the transmittance in front of it. Where a thick segment's density
+// changes, both estimates may agree and be wrong, for neither knows where the light comes from: there the source's change counts.
+WK_FN float segmentError(SegmentGains g, vec4 extinction_per_m, vec4 source) {
+  vec4 apart = g.gain - g.coarse, e = extinction_per_m;
+  float light = apart.x * source.x + apart.y * source.y + apart.z * source.z, opacity = apart.x + apart.y + apart.z;
+  float near = abs(source.y - source.x) * abs(e.y - e.x) / max(e.x + e.y, F(1e-30));
+  float far = abs(source.z - source.y) * abs(e.z - e.y) / max(e.y + e.z, F(1e-30));
+  return max(max(abs(light), abs(opacity)), (F(1.0) - g.transmittance) * max(near, far));
+}
+
 // Light that a rule makes of a medium of constant sigma and S, over what it should be, in segments of optical depth x: the sum of its gains over the opacity.
 // 1 for the exponential rules. Rectangle 1 + x/2 ..., trapezoid 1 + x^2/12 ..., both Simpsons 1 + O(x^4); all grow as x when x is great.
 WK_FN float gainExcess(uint rule, float x) {

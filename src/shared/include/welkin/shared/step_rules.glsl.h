@@ -12,12 +12,13 @@ WK_CONST uint kStepRules = 5u;
 
 // Optical depth of a segment at the node's greatest density, in steps. Density varies along thin segments as along thick ones, and thin ones
 // do not saturate: they take finer steps. Behind cloud that hides most, errors hide too: steps grow to five times there (docs/decisions/0010).
-WK_CONST float kDepthShare = F(0.75);
-WK_CONST float kLeastCount = F(0.2);
+WK_CONST float kDepthShare = F(0.6);
+WK_CONST float kLeastCount = F(0.1);
 
 struct StepPlace {
   float span_m;         // way through the brick
-  float halves;         // of the node's size in it
+  float nodeHalf_m;     // half the node's size
+  float halves;         // of the node's size in it, counted along the axis that the ray follows most
   float bound;          // optical depth of it at the node's greatest density
   float transmittance;  // of what is in front
   float since_m;        // from the entry into the clouds' shell
@@ -27,7 +28,7 @@ struct StepPlace {
 };
 
 WK_FN float segmentCount(uint rule, float step, StepPlace p) {
-  float count = p.halves;
+  float count = p.span_m / p.nodeHalf_m;
   if (rule == kStepUniform) count = F(64.0) * p.span_m / p.shell_m;
   if (rule == kStepGeometric) count = p.span_m / (p.entryHalf_m + F(0.0625) * p.since_m);
   if (rule == kStepPixel) count = p.span_m / p.pixelHalf_m;

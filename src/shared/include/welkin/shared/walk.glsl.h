@@ -30,8 +30,12 @@ WK_FN uvec3 walkTo(Walk walk, float t) {
 // An axis of walkTo is off by at most three steps (truncation to half steps, start) and 2^-22 t (roundings of direction, product and t).
 WK_FN float walkError(float t, float step_m) { return F(3.0) * step_m + F(2.5e-7) * t; }
 
-// How far behind a cell's exit the next look-up is made: twice the error, so that a ray that meets the face head-on is past it. One that
-// grazes it may need another look-up in the same cell; it never leaves a cell out that is thicker than the error.
-WK_FN float pastExit(float t, float step_m) { return F(2.0) * walkError(t, step_m); }
+// Distance from t, at `steps` inside a node of `size`, to where the ray is behind the node by twice the error of its position, measured across
+// the face: there the next look-up finds another node, be the ray as flat as it will. Measured along the ray, one that starts on a face
+// and hardly leaves it would be looked up every few centimetres. No node is left out that is thicker than that.
+WK_FN float leaveNode(Walk walk, vec3 steps, float size, float t, float step_m) {
+  float slack = F(2.0) * walkError(t, step_m) / step_m;
+  return nodeExit(steps + slack, size + F(2.0) * slack, walk.ahead, walk.metrePerStep);
+}
 
 WK_END

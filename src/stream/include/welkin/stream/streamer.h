@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "welkin/clouds/density_source.h"
+#include "welkin/clouds/opaque_deck.h"
 #include "welkin/physics/root_frame.h"
 #include "welkin/shared/octree.glsl.h"
 
@@ -27,6 +28,7 @@ struct StreamSettings {
   std::uint32_t brickCapacity = 0;   // bricks in the pool, the zero brick included
   std::uint32_t groupCapacity = 0;   // groups of eight nodes in the node pool, the root's group included
   double detailLimit = 0;            // greatest node-edges-per-distance K; 0: no limit but the budget
+  std::optional<OpaqueDeck> deck = {};  // what is below it is not refined while the camera is above
 };
 
 // What the GPU found when it generated a brick: extinction as a fraction of the source's maximum, over the stored corners.

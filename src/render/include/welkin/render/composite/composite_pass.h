@@ -1,6 +1,7 @@
 #pragma once
 // Puts the picture together: ground, sun, air and the cloud layer to one picture, in linear radiance and tone-mapped.
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "welkin/core/result.h"
@@ -18,6 +19,17 @@ struct AlbedoPicture {
   std::vector<std::uint8_t> rgba;
 };
 
+struct FramePlan;
+
+// What a picture is put together from, and what is kept of it.
+struct CompositeParts {
+  bool clouds, air, sun, ground = true;
+  bool linear = true;   // radiance()
+  bool display = true;  // tone-maps too; else ExposurePass::show does
+  explicit CompositeParts(const Scene& scene);
+  explicit CompositeParts(const FramePlan& plan);
+};
+
 class CompositePass {
  public:
   // A picture of the ground is halved until it takes a sixteenth of the budget: whether this size does, and its bytes with all mips.
@@ -25,8 +37,12 @@ class CompositePass {
   static std::uint64_t albedoBytes(int width, int height);
   // Fails in one line: over the budget, or a shader that does not compile. What the scene has not is not compiled. The picture is halved
   // until it is at most 2048 wide and, with its smaller copies, at most 1/16 of the budget.
-  static Result<CompositePass> create(gpu::MemoryAccount& account, const Scene& scene, int width, int height,
+  static Result<CompositePass> create(gpu::MemoryAccount& account, const Scene& scene, const CompositeParts& parts, int width, int height,
                                       const AlbedoPicture* albedo = nullptr);
+  static Result<CompositePass> create(gpu::MemoryAccount& account, const Scene& scene, int width, int height,
+                                      const AlbedoPicture* albedo = nullptr) {
+    return create(account, scene, CompositeParts(scene), width, height, albedo);
+  }
   ~CompositePass();
   CompositePass(CompositePass&& o) noexcept { swap(o); }
   CompositePass& operator=(CompositePass&& o) noexcept {
@@ -39,22 +55,27 @@ class CompositePass {
   // Reads the camera (WK_CAMERA_BINDING, the same block as here), the sky tables (SkyTables::bind) and the cloud layer's two textures;
   // counts into WK_COUNTERS_BINDING. Exposure in EV: 0 suits a sun of irradiance 1; of a scene with a metered exposure it is not used,
   // and display() is left to ExposurePass::show.
-  void run(const shared::CameraBlock& camera, double exposure_ev) const;
+  void run(const shared::CameraBlock& camera, double exposure_ev) const { run(program_, camera, exposure_ev); }
+  // The same without air, clouds and picture of the ground. prepareBare() compiles it, once.
+  Result<void> prepareBare();
+  void runBare(const shared::CameraBlock& camera, double exposure_ev) const { run(bare_, camera, exposure_ev); }
 
-  const gpu::Texture& radiance() const { return radiance_; }  // RGBA32F, linear, before exposure; a = 1 - cloud transmittance
+  const gpu::Texture& radiance() const { return radiance_; }  // RGBA32F, linear, before exposure; a = 1 - cloud transmittance; if kept
   const gpu::Texture& display() const { return display_; }    // RGBA8, sRGB values
 
  private:
   CompositePass() = default;
   void swap(CompositePass& o) noexcept;
+  void run(const gpu::Program& program, const shared::CameraBlock& camera, double exposure_ev) const;
   Result<void> loadAlbedo(gpu::MemoryAccount& account, AlbedoPicture picture);
 
-  gpu::Program program_;
+  gpu::Program program_, bare_;
   gpu::Texture radiance_, display_;
   int width_ = 0, height_ = 0;
   glm::vec3 albedo_{}, toSun_{}, sunIrradiance_{};
   float sunRadius_rad_ = 0;
-  bool shows_ = true;     // tone-maps too
+  std::optional<CompositeParts> parts_;
+  ToneCurve toneCurve_{};
   GLuint albedoMap_ = 0;  // with smaller copies, which gpu::Texture has not
   std::uint64_t albedoBytes_ = 0;
   gpu::MemoryAccount* account_ = nullptr;

@@ -22,7 +22,8 @@ class SkyField {
   bool advance(int rows);
   double progress() const;  // 0..1, by the greatest number of orders
 
-  void bind() const;  // field and irradiance to their units
+  void letGoOfMakers();  // once advance() has answered false: only the tables stay
+  void bind() const;     // field and irradiance to their units
   const gpu::Texture& irradiance() const { return irradiance_; }
   bool kept() const { return kept_; }     // it was on disk (sky_cache.h)
   int orders() const { return orders_; }  // gathered so far

@@ -25,6 +25,7 @@ struct SkyModel {
 
 // The model that the scene's `atmosphere.model` names. `auto`: tables-4d, or march where the air is too thin for more. Fails in one line
 // on air that is none (airBlock) and on a name that is none.
-Result<SkyModel> skyModel(const Scene& scene);
+// everyHarmonic: tabulated as for peaked layers even if there is none.
+Result<SkyModel> skyModel(const Scene& scene, bool everyHarmonic = false);
 
 }  // namespace welkin

@@ -25,17 +25,19 @@ class SkyTables {
   ~SkyTables();
 
   // Computes the tables that depend on the scene alone. Fails in one line: no atmosphere, values out of range, over the budget.
-  static Result<SkyTables> create(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders = SkyOrders::All);
+  static Result<SkyTables> create(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders = SkyOrders::All, bool everyHarmonic = false);
 
   // The same in slices: begin() makes the sun's light, each advance() so many altitudes of one order, until it answers false. In
   // between the tables hold the light of the orders so far.
-  static Result<SkyTables> begin(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders = SkyOrders::All);
+  static Result<SkyTables> begin(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders = SkyOrders::All, bool everyHarmonic = false);
   bool advance(int rows);
   double progress() const;  // 0..1
+  // Once all is made: what it was made with goes. advance() may not be called any more.
+  void letGoOfMakers();
 
   // Tables of a changed scene with the diffuse light of `from`, which is not usable any more: at once, but light scattered more than once
   // is still that of the old air. Fails in one line if the old light does not fit the new tables; `from` is then as it was.
-  static Result<SkyTables> withField(gpu::MemoryAccount& account, const Scene& scene, SkyTables& from);
+  static Result<SkyTables> withField(gpu::MemoryAccount& account, const Scene& scene, SkyTables& from, bool everyHarmonic = false);
 
   // Makes the view tables fit this camera. They depend on the camera's altitude and the sun's zenith angle only, and both are rounded
   // to steps too small to see, so the tables are a function of the pose, not of the flight before it:
@@ -55,7 +57,7 @@ class SkyTables {
 
  private:
   SkyTables();
-  static Result<SkyTables> empty(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders);  // all but the field
+  static Result<SkyTables> empty(gpu::MemoryAccount& account, const Scene& scene, SkyOrders orders, bool everyHarmonic);  // all but the field
   Result<void> allocate(gpu::MemoryAccount& account);
   Result<void> compute();  // the sun's light, and the program of the view tables
   const gpu::Texture& sunDepth() const { return discDepth_.id() != 0 ? discDepth_ : pointDepth_; }
