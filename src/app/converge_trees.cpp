@@ -60,7 +60,8 @@ Result<Poses> loadPoses(const ConvergeOptions& options) {
     out.name = start->viewName;
     out.views = {start->view};
   }
-  if (!out.scene.clouds) return Error{fmt::format("{}: expected clouds: without them there is no march to measure", options.input.string())};
+  if (!out.scene.clouds)
+    return Error{fmt::format("{}: expected clouds: without them there is no march to measure", options.input.string())};
   apply(options.common, out.scene);
   for (auto& view : out.views) apply(options.common, view);
   for (auto& frames : out.before)

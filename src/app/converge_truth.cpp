@@ -44,8 +44,8 @@ Result<TruthPicture> integrated(const reference::CloudField& field, Renderer& re
     cloud.transmittance = std::min(cloud.transmittance + cloud.error, 1.0);
   }
   if (auto drawn = renderer.drawWith(view, reference::weightsOf(picture, size.width, size.height)); !drawn) return drawn.error();
-  auto error = measure::compareShown(chosen(out.light, out.pixels), chosen(renderer.radiance(), out.pixels), settings.curve,
-                                     settings.exposure_ev);
+  auto error =
+      measure::compareShown(chosen(out.light, out.pixels), chosen(renderer.radiance(), out.pixels), settings.curve, settings.exposure_ev);
   if (!error) return error.error();
   out.tolerance = *error;
   return out;
@@ -68,8 +68,9 @@ std::string describeTruth(const TruthSettings& s) {
   const std::string pixels = s.every > 1 ? fmt::format(", one pixel in {}", s.every * s.every) : std::string();
   if (s.kind == TruthKind::Tree) return fmt::format("the tree of {} integrated in double precision to {:g}{}", tree, s.tolerance, pixels);
   if (s.kind == TruthKind::Source)
-    return fmt::format("the cloud source without voxels, band-limited to the pixel, down to depth {}, integrated in double precision to {:g}{}",
-                       s.quality.depth, s.tolerance, pixels);
+    return fmt::format(
+        "the cloud source without voxels, band-limited to the pixel, down to depth {}, integrated in double precision to {:g}{}",
+        s.quality.depth, s.tolerance, pixels);
   return fmt::format("{}, {} {} {:g}, every pixel marched", tree, kIntegratorNames[std::size_t(s.quality.integrator)],
                      kStepRuleNames[std::size_t(s.quality.stepRule)], s.quality.step);
 }

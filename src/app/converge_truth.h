@@ -15,9 +15,9 @@ struct TruthPicture {
 
 struct TruthSettings {
   TruthKind kind = TruthKind::Gpu;
-  Quality quality;            // of the tree, and of the march if that is the truth
-  int every = 1;              // tree, source: one pixel in every^2
-  double tolerance = 1e-5;    // of a ray's weights
+  Quality quality;          // of the tree, and of the march if that is the truth
+  int every = 1;            // tree, source: one pixel in every^2
+  double tolerance = 1e-5;  // of a ray's weights
   ToneCurve curve{};
   double exposure_ev = 0;
 };
