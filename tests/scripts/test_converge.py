@@ -68,7 +68,7 @@ class Converge(unittest.TestCase):
 
     def test_truth_in_double_precision(self):
         errors = {}
-        for truth in ["gpu", "tree", "source"]:
+        for truth in ["tree", "source"]:
             done = subprocess.run(self.command("--sweep", "step=0.02", "--truth", truth, "--truth-every", "4", repeat=1), capture_output=True,
                                   text=True, timeout=120)
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -77,7 +77,6 @@ class Converge(unittest.TestCase):
             self.assertLess(report["truth"]["tolerance"], 0.1)
             errors[truth] = report["settings"][0]["error"]["rmse_255"]
         # A fine march comes to the tree: 0.25 is half floats, and levels that turn where exactly a ray enters a node.
-        self.assertLess(errors["gpu"], 0.25)
         self.assertLess(errors["tree"], 0.25)
         # What is left against the source is voxels: this tree's are as wide as hills.
         self.assertGreater(errors["source"], 2)
