@@ -50,7 +50,7 @@ th:first-child, td:first-child { text-align: left; } thead th { border-bottom: 2
 th button { font: inherit; font-weight: 600; color: inherit; background: none; border: 0; padding: 0; cursor: pointer; } th button::after {
   content: "\2195";
   color: var(--soft); margin-left: 4px; font-weight: 400; } th[aria-sort=ascending] button::after { content: "\2191"; color: inherit; }
-th[aria-sort=descending] button::after { content: "\2193"; color: inherit; } tr.best td:first-child::before { content: "\25CF "; color:
+th[aria-sort=descending] button::after { content: "\2193"; color: inherit; } tr.best td:first-child::before { content: "\25CF\00a0"; color:
   var(--c5); }
 #tip { position: fixed; display: none; pointer-events: none; max-width: 320px; background: var(--ink); color: var(--paper); padding: 6px
   10px; border-radius: 6px;

@@ -133,7 +133,7 @@ TimingReport report() {
     row.stats.bytesBudget = 2000;
     r.frames.push_back(row);
   }
-  r.leftOut = {{"sky tables", "no atmosphere"}};
+  r.leftOut = {{"sky tables", "no atmosphere", "no-atmosphere"}};
   r.quality = {{1, {}}, {2, {}}};
   r.quality[1].error.rmse_255 = 3;
   r.pops = {{2, 1.5, 0.1, 7}};
