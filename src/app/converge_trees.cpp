@@ -89,6 +89,7 @@ Result<void> Trees::open(const ConvergeSetting& setting) {
   settings.height = size_.height;
   settings.brickBits = setting.brickBits;
   settings.light = setting.light;
+  settings.forced = {"nothing-moves"};  // what a frame costs is what is asked
   auto renderer = Renderer::create(*context_, scene, settings);
   if (!renderer) return renderer.error();
   for (const auto& note : (*renderer)->notes()) {

@@ -104,6 +104,14 @@ class Converge(unittest.TestCase):
         self.assertEqual(self.json.read_text(), "old")
         self.assertEqual([p.name for p in Path(self.folder.name).iterdir()], ["r.json"])
 
+    def test_frames_of_a_still_camera_are_drawn(self):
+        done = subprocess.run(self.command("--sweep", "frames=full,still"), capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        full, still = json.loads(self.json.read_text())["settings"]
+        self.assertGreater(still["passes"]["march"]["median"], 0)  # though nothing moves
+        self.assertLess(still["samples"], full["samples"] / 2)
+        self.assertAlmostEqual(still["error"]["rmse_255"], full["error"]["rmse_255"], delta=0.01)  # its history is that of the full march
+
     def test_moving_needs_a_path(self):
         done = subprocess.run(self.command("--sweep", "frames=moving"), capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, 1)
