@@ -7,6 +7,8 @@ All Earths with clouds share one planet, one air and one sun, so they are writte
 """
 
 import json
+import math
+import random
 
 import planets
 from globe import RADIUS_M, subsolar_deg, write_or_check
@@ -122,11 +124,29 @@ def left_out(pose_sun):
     return {name: {**content, "name": f"left out: {name}"} for name, content in scenes.items()}
 
 
+def error_views(count=40, held=8):
+    """Views of the cloudy South Atlantic by day, from 2 m to 20,000 km: on the ground looking up, in the air looking ahead, in space looking at the
+    planet. The last `held` come from a generator of their own: no constant of the code was ever chosen with them in sight."""
+    out = {}
+    for i in range(count + held):
+        draw = random.Random(f"error {i}" if i < count else f"held {i}")
+        altitude_m = 2.0 * 10 ** draw.uniform(0, 7)
+        dip_deg = math.degrees(math.acos(RADIUS_M / (RADIUS_M + altitude_m)))
+        pitch_deg = -dip_deg + (draw.uniform(-15, 30) if altitude_m < 3_000 else draw.uniform(-40, 3) if altitude_m < 100_000 else draw.uniform(-30, -2))
+        where = view(round(altitude_m, 1), round(max(pitch_deg, -90.0), 2), latitude_deg=round(draw.uniform(-58, -28), 3),
+                     longitude_deg=round(draw.uniform(-55, 5), 3), heading_deg=round(draw.uniform(0, 360), 1))
+        out[f"view-{i:02}" if i < count else f"held-{i - count}"] = where
+    return out
+
+
 def files():
     out = {"scenes/earth.json": scene("Earth", "../data", {"budget": "512MiB", "depth": 16, "seed": 1},
                                       {**EARTH_VIEWS, **ZOOM_VIEWS}),
            "benchmarks/orbit-to-ground.scene.json": scene("orbit to ground", "../data",
                                                           {"budget": "256MiB", "depth": 16, "detail": 36, "seed": 1}, {})}
+    # Depth 24, and more nodes a radian than 90 lines show: only the pixels limit the detail.
+    out["benchmarks/error/views.json"] = {**scene("tolerance", "../../data", {"budget": "512MiB", "depth": 24, "detail": 24, "seed": 1}, error_views()),
+                                          "sun": sun({"latitude_deg": -20.0, "longitude_deg": -25.0}, 0.0, 90.0)}
     pose_sun = sun(POSE_SITE, (POSE_HEADING_DEG + 60) % 360, 48.0)
     for name, where in POSES.items():
         out[f"benchmarks/poses/{name}.json"] = {**scene(f"pose {name}", "../../data", POSE_QUALITY, {name: where}), "sun": pose_sun}

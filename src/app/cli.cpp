@@ -76,6 +76,12 @@ void addQualityOptions(CLI::App& command, CommonOptions& o) {
   addGpuOption(command, o);
 }
 
+void addToleranceOption(CLI::App& command, CommonOptions& o) {
+  addParsed<double>(
+      command, "--tolerance", "error that the picture may have, RMSE on 0-255: step and detail are picked to keep it as cheaply as they can",
+      [](const std::string& t) { return parseNumber(t, 0.01, 255); }, [&o](double v) { o.tolerance_255 = v; });
+}
+
 void addOutputOptions(CLI::App& command, CommonOptions& options, const char* jsonText) {
   command.add_option("--json", options.json, jsonText);
   command.add_flag("--quiet,-q", options.quiet, "no log lines and no progress bar, only warnings and errors");

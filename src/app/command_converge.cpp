@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "welkin/app/converge.h"
+#include "welkin/app/tolerance_sweep.h"
 
 namespace welkin::app {
 
@@ -37,11 +38,16 @@ void addConverge(CLI::App& app, Action& action, const std::string& commandLine) 
       ->check(CLI::Range(1, 1000));
   command->add_option("--repeat", o->repetitions, "timed frames of each setting (default: 7)")->check(CLI::Range(1, 1000));
   command->add_option("--poses", o->poses, "poses of a path, evenly along it (default: 5)")->check(CLI::Range(1, 1000));
+  auto tolerances = std::make_shared<std::vector<double>>();
+  addParsed<std::vector<double>>(*command, "--tolerance",
+                                 "E,F,...: instead of a sweep, what --tolerance picks in every view, against all that it could have picked", parseTolerances,
+                                 [tolerances](std::vector<double> v) { *tolerances = std::move(v); });
   addQualityOptions(*command, o->common);
   addOutputOptions(*command, o->common, "write the report to this file");
-  command->callback([o, &action] {
-    action = [o] {
+  command->callback([o, tolerances, &action] {
+    action = [o, tolerances] {
       beginCommand(o->common);
+      if (!tolerances->empty()) return toleranceSweep({o->common, o->input, o->view, *tolerances});
       return converge(*o);
     };
   });

@@ -28,6 +28,7 @@ void addFly(CLI::App& app, Action& action, const std::string& commandLine) {
           "fixed: the same pictures on every run; wall: never wait for the worker")
       ->check(CLI::IsMember({"fixed", "wall"}));
   addQualityOptions(*command, o->common);
+  addToleranceOption(*command, o->common);
   addOutputOptions(*command, o->common, "where the timings go (default: timings.json in the folder)");
   command->callback([o, &action] {
     action = [o] {

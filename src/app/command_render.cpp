@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 
 #include "commands.h"
@@ -7,6 +8,7 @@
 #include "welkin/core/files.h"
 #include "welkin/core/progress.h"
 #include "welkin/core/units.h"
+#include "welkin/measure/tolerance.h"
 
 namespace welkin::app {
 namespace {
@@ -22,6 +24,26 @@ Result<void> writeRendered(const RenderOptions& o, const Renderer& renderer, con
   const Texts texts = textsFromState(state, folder);
   return kindOfName(o.output) == PictureKind::Exr ? writeExr(o.output, renderer.radiance(), texts)
                                                   : writePng(o.output, renderer.image(), texts);
+}
+
+constexpr int kTimedFrames = 5;
+
+// Wall time of a frame of the settled tree with every pixel marched: the median of a few.
+Result<double> pictureTime_ms(Renderer& renderer, const View& view) {
+  std::vector<double> times;
+  for (int i = 0; i < kTimedFrames; ++i) {
+    if (auto same = renderer.setMarch(renderer.scene().quality); !same) return same.error();  // else nothing would have changed: no frame
+    times.push_back(renderer.frame(view, FrameMode::Full).wall_ms);
+  }
+  std::nth_element(times.begin(), times.begin() + kTimedFrames / 2, times.end());
+  return times[kTimedFrames / 2];
+}
+
+void printKept(const RenderOptions& o, const measure::KeptTolerance& kept) {
+  const Quality& q = kept.choice.quality;
+  fmt::print("tolerance {}: reached {:.2f} (RMSE, 0-255) with step {}, detail {}{}\n", *o.common.tolerance_255, kept.reached_255, q.step,
+             q.detail > 0 ? fmt::format("{:.0f} nodes a radian", q.detail) : "of the pixels",
+             kept.reached_255 <= *o.common.tolerance_255 ? "" : "; no finer march was tried");
 }
 
 Result<void> runRender(const RenderOptions& o) {
@@ -42,7 +64,7 @@ Result<void> runRender(const RenderOptions& o) {
   settings.width = size.width;
   settings.height = size.height;
   settings.onlyView = start->view;
-  settings.linear = kindOfName(o.output) == PictureKind::Exr;
+  settings.linear = o.common.tolerance_255 || kindOfName(o.output) == PictureKind::Exr;
   auto stage = openStage(start->scene, settings, o.common.gpu);
   if (!stage) return stage.error();
   Progress progress("render", o.common.quiet);
@@ -52,6 +74,14 @@ Result<void> runRender(const RenderOptions& o) {
     return !stopRequested();
   });
   if (!stats) return Error{fmt::format("{}: {}", o.output.string(), stats.error().message)};
+  std::optional<measure::KeptTolerance> kept;
+  if (o.common.tolerance_255) {
+    progress.update(0.95, "picking the march");
+    auto done = measure::keepTolerance(*stage->renderer, start->view, stats->exposure_ev, *o.common.tolerance_255);
+    if (!done) return done.error();
+    kept = *done;
+    *stats = stage->renderer->frame(start->view, FrameMode::Full);
+  }
   progress.update(1);
   progress.finish();
 
@@ -75,11 +105,19 @@ Result<void> runRender(const RenderOptions& o) {
     report.notes = stage->renderer->notes();
     report.glMessages = stage->context->debugMessages();
     report.glFirstMessages = stage->context->firstMessages();
+    if (kept) {
+      report.tolerance_255 = o.common.tolerance_255;
+      report.tolerance.push_back({0, kept->choice, kept->reached_255});
+    }
+    auto time = pictureTime_ms(*stage->renderer, start->view);
+    if (!time) return time.error();
+    report.time_ms = *time;
     report.total_s = seconds;
     if (auto written = writeFile(o.common.json, report.json() + "\n"); !written) return written;
   }
   fmt::print("{}: {}x{}, {:.1f} s, {} bricks, {} of {}\n", o.output.string(), size.width, size.height, seconds, stats->residency.bricks,
              bytesText(stats->bytesUsed), bytesText(stats->bytesBudget));
+  if (kept) printKept(o, *kept);
   return {};
 }
 
@@ -98,6 +136,7 @@ void addRender(CLI::App& app, Action& action) {
       ->check(
           [](const std::string& text) { return kindOfName(text) == PictureKind::None ? "expected a name that ends in .png or .exr" : ""; });
   addQualityOptions(*command, o->common);
+  addToleranceOption(*command, o->common);
   addOutputOptions(*command, o->common, "write times, residency and counters to this file");
   command->callback([o, &action] { action = [o] { return runRender(*o); }; });
 }

@@ -15,6 +15,7 @@
 namespace welkin::app {
 namespace {
 
+constexpr int kChoiceFrames = 60;     // a march for the tolerance is picked anew so often: the altitude changes by a few times in between at most
 constexpr double kSettleShare = 0.1;  // of the progress bar: about the time that settling takes of the whole flight
 
 std::string heightText(double h_m) { return h_m >= 10000 ? fmt::format("{:.0f} km", h_m / 1000) : fmt::format("{:.0f} m", h_m); }
@@ -92,11 +93,26 @@ class Replay {
       drawn(i + 1, "warm-up");
     }
     for (int frame = plan_.first; frame < plan_.end && !stopRequested(); ++frame) {
+      if ((frame - plan_.first) % kChoiceFrames == 0)
+        if (auto chosen = chooseMarch(frame); !chosen) return chosen;
       if (auto done = drawFrame(frame, video.get()); !done) return done;
       drawn(warmUp + frame + 1 - plan_.first, heightText(report_.frames.back().altitude_m));
     }
     report_.stopped = stopRequested();
     return video ? video->finish() : Result<void>{};
+  }
+
+  // The march that keeps the tolerance here; the tree that is resident is its truth.
+  Result<void> chooseMarch(int frame) {
+    if (!options_.common.tolerance_255) return {};
+    const View& view = pose(frame).view;
+    const double exposure_ev = report_.frames.empty() ? view.exposure_ev.value_or(plan_.scene.output.exposure_ev.value_or(0))
+                                                      : report_.frames.back().stats.exposure_ev;
+    const auto choice = measure::chooseMarch(*stage_.renderer, view, exposure_ev, *options_.common.tolerance_255);
+    if (!choice) return choice.error();
+    report_.tolerance_255 = options_.common.tolerance_255;
+    report_.tolerance.push_back({frame, *choice, {}});
+    return {};
   }
 
   Result<void> drawFrame(int frame, VideoWriter* video) {

@@ -150,6 +150,41 @@ std::vector<PassRow> TimingReport::passes() const {
   return out;
 }
 
+namespace {
+
+Json choiceJson(const ToleranceRow& row) {
+  const Quality& q = row.choice.quality;
+  Json out{{"settings",
+            {{"integrator", kIntegratorNames[std::size_t(q.integrator)]},
+             {"step_rule", kStepRuleNames[std::size_t(q.stepRule)]},
+             {"step", q.step},
+             {"detail", q.detail}}},
+           {"kept", row.choice.kept},
+           {"estimate_rmse_255", row.choice.estimate_255},
+           {"finest_rmse_255", row.choice.finest_255},
+           {"ray_cost", row.choice.cost},
+           {"candidates_drawn", row.choice.tried},
+           {"pixels", row.choice.pixels}};
+  if (row.reached_255) out["reached_rmse_255"] = *row.reached_255;
+  return out;
+}
+
+// The newest choice, and all of them where a flight made several.
+Json toleranceJson(double asked_255, const std::vector<ToleranceRow>& rows) {
+  Json out{{"asked", asked_255}};
+  if (rows.empty()) return out;
+  out.update(choiceJson(rows.back()));
+  if (rows.size() < 2) return out;
+  for (const auto& row : rows) {
+    Json entry = choiceJson(row);
+    entry["frame"] = row.pathFrame;
+    out["choices"].push_back(std::move(entry));
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string TimingReport::json() const {
   Json out;
   out["context"] = contextJson(context);
@@ -216,6 +251,8 @@ std::string TimingReport::json() const {
     out["pop"]["largest_mean_255"] = mean;
   }
   if (!notes.empty()) out["notes"] = notes;
+  if (time_ms) out["time_ms"] = *time_ms;
+  if (tolerance_255) out["tolerance"] = toleranceJson(*tolerance_255, tolerance);
   out["total_s"] = total_s;
   out["stopped"] = stopped;
   out["frames"] = Json::array();

@@ -97,6 +97,7 @@ struct Renderer::Impl {
   void useAir(const Scene& changed);
   Result<void> setAir(const Scene& changed, AirChange how);
   ViewFrame frameOf(const View& view) const { return viewFrame(view, scene.planet.radius_m, shellTop_m(), settings.width, settings.height); }
+  FrameCounters counted() const;  // since beginPicture()
   void drawAside(const View& view, const std::function<void()>& march);  // a picture that leaves history, tree and exposure alone
   void beginPicture(const ViewFrame& frame, bool bare = false);  // camera, counters, sky
   // Composite and exposure. sinceLast_s: ExposurePass::meter; none: the exposure stays where it is, unless there is none yet.
@@ -418,10 +419,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
   } else {
     r.endPicture(frame, view, sinceLast_s, bare);
   }
-  shared::Counters counted{};
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  r.counters.download(0, std::as_writable_bytes(std::span(&counted, 1)));
-  stats.counters = {counted.nanPixels, counted.holes, counted.marchedPixels, counted.rejectedPixels, counted.cells, counted.samples};
+  stats.counters = r.counted();
   stats.exposure_ev = r.shown_ev(view);  // the counters have been waited for: this is a copy
   r.remember(view, stats, treeChanged);
   stats.passes = r.timer.collect();
@@ -489,6 +487,21 @@ void Renderer::preview(const View& view) {
   r.drawAside(view, [&] { r.clouds->preview(r.scene); });
 }
 
+Result<FrameCounters> Renderer::preview(const View& view, std::span<const glm::ivec2> pixels) {
+  Impl& r = *impl_;
+  Result<void> marched;
+  r.drawAside(view, [&] { marched = r.clouds->preview(r.account, r.scene, pixels); });
+  if (!marched) return marched.error();
+  return r.counted();
+}
+
+FrameCounters Renderer::Impl::counted() const {
+  shared::Counters c{};
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  counters.download(0, std::as_writable_bytes(std::span(&c, 1)));
+  return {c.nanPixels, c.holes, c.marchedPixels, c.rejectedPixels, c.cells, c.samples};
+}
+
 void Renderer::Impl::drawAside(const View& view, const std::function<void()>& march) {
   const ViewFrame frame = frameOf(view);
   const bool timed = std::exchange(timer.enabled, false);
@@ -522,6 +535,8 @@ Result<void> Renderer::drawWith(const View& view, std::span<const shared::CloudW
   r.drawAside(view, [&] { shown = r.clouds->show(r.account, r.scene, clouds); });
   return shown;
 }
+
+double Renderer::drawnDetail(const View& view) const { return std::min(double(impl_->last.sampleDetail), shownDetail(view)); }
 
 double Renderer::shownDetail(const View& view) const {
   const Impl& r = *impl_;

@@ -91,10 +91,7 @@ Result<void> CloudPasses::use(const Quality& quality) {
   Programs made;
   gpu::Program* programs[] = {&made.all, &made.sixteenth, &made.list};
   for (int i = 0; i < (history_ ? 3 : 1); ++i) {
-    gpu::Defines variant = defines_;
-    variant.insert(variant.end(), rules.begin(), rules.end());
-    variant.emplace_back("PIXELS", std::to_string(i));
-    auto program = gpu::Program::compute("pass/march/march.comp", variant);
+    auto program = compile(quality, PixelSet(i));
     if (!program) return program.error();
     *programs[i] = std::move(*program);
   }
@@ -129,14 +126,35 @@ void CloudPasses::show(int target) const {
   if (aux_[target].id()) aux_[target].bind(WK_CLOUD_AUX_UNIT);
 }
 
-void CloudPasses::preview(const Scene& scene) { marchSpare(march_->all, scene); }
+void CloudPasses::preview(const Scene& scene) { marchSpare(march_->all, scene, groups(width_, 8), groups(height_, 8)); }
+
+Result<void> CloudPasses::preview(gpu::MemoryAccount& account, const Scene& scene, std::span<const glm::ivec2> pixels) {
+  if (!march_->list.valid()) {  // a single picture has none
+    auto program = compile(scene.quality, PixelSet::List);
+    if (!program) return program.error();
+    march_->list = std::move(*program);
+  }
+  const auto count = static_cast<std::uint32_t>(pixels.size());
+  std::vector<std::uint32_t> words{(count + 63) / 64, 1, 1, count};
+  for (const glm::ivec2 p : pixels) words.push_back(std::uint32_t(p.x) | std::uint32_t(p.y) << 16);
+  auto buffer = gpu::Buffer::create(account, "some pixels", words.size() * sizeof(words[0]), GL_DYNAMIC_STORAGE_BIT, true);
+  if (!buffer) return buffer.error();
+  buffer->upload(0, std::as_bytes(std::span(words)));
+  buffer->bind(GL_SHADER_STORAGE_BUFFER, WK_PIXELS_BINDING);
+  marchSpare(march_->list, scene, words[0], 1);
+  return {};
+}
+
+Result<gpu::Program> CloudPasses::compile(const Quality& quality, PixelSet pixels) const {
+  gpu::Defines variant = defines_, rules = rulesOf(quality);
+  variant.insert(variant.end(), rules.begin(), rules.end());
+  variant.emplace_back("PIXELS", std::to_string(int(pixels)));
+  return gpu::Program::compute("pass/march/march.comp", variant);
+}
 
 Result<void> CloudPasses::show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds) {
   if (!given_.valid()) {
-    gpu::Defines variant = defines_, rules = rulesOf(scene.quality);  // it compiles the march, and does not call it
-    variant.insert(variant.end(), rules.begin(), rules.end());
-    variant.emplace_back("PIXELS", "3");
-    auto program = gpu::Program::compute("pass/march/march.comp", variant);
+    auto program = compile(scene.quality, PixelSet::Given);  // it compiles the march, and does not call it
     if (!program) return program.error();
     given_ = std::move(*program);
   }
@@ -144,15 +162,15 @@ Result<void> CloudPasses::show(gpu::MemoryAccount& account, const Scene& scene, 
   if (!buffer) return buffer.error();
   buffer->upload(0, std::as_bytes(clouds));
   buffer->bind(GL_SHADER_STORAGE_BUFFER, WK_PIXELS_BINDING);
-  marchSpare(given_, scene);
+  marchSpare(given_, scene, groups(width_, 8), groups(height_, 8));
   return {};
 }
 
-void CloudPasses::marchSpare(const gpu::Program& program, const Scene& scene) const {
+void CloudPasses::marchSpare(const gpu::Program& program, const Scene& scene, unsigned groupsX, unsigned groupsY) const {
   setLight(program, scene);
   const int spare = history_ ? 1 - current_ : 0;  // the next run() writes every pixel of it
   march(program, {0, 0}, spare);
-  program.dispatch(groups(width_, 8), groups(height_, 8));
+  program.dispatch(groupsX, groupsY);
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   show(spare);
 }

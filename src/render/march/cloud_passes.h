@@ -28,13 +28,16 @@ class CloudPasses {
   void run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer);
   // Marches every pixel into the spare target, which is bound as the new clouds; history stays as it is.
   void preview(const Scene& scene);
+  Result<void> preview(gpu::MemoryAccount& account, const Scene& scene, std::span<const glm::ivec2> pixels);  // of these pixels only
   // The same with what each pixel's ray brings given, rows from the top, instead of marched.
   Result<void> show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds);
   void forget() { haveHistory_ = false; }  // the next frame marches every pixel
 
  private:
   void march(const gpu::Program& program, glm::ivec2 offset, int target) const;
-  void marchSpare(const gpu::Program& program, const Scene& scene) const;
+  enum class PixelSet { All, Sixteenth, List, Given };  // PIXELS of march.comp
+  Result<gpu::Program> compile(const Quality& quality, PixelSet pixels) const;
+  void marchSpare(const gpu::Program& program, const Scene& scene, unsigned groupsX, unsigned groupsY) const;
   void setLight(const gpu::Program& program, const Scene& scene) const;
   void show(int target) const;  // to whom puts the picture together
   void setMotion(const gpu::Program& program, const ViewFrame& view) const;
@@ -50,7 +53,7 @@ class CloudPasses {
   };
   gpu::Defines defines_;              // of all marches
   std::map<std::string, Programs> marches_;  // by what their quality defines
-  const Programs* march_ = nullptr;   // the one in use
+  Programs* march_ = nullptr;   // the one in use
   gpu::Program reproject_, given_;    // given: made when it is first asked for
 };
 

@@ -51,6 +51,7 @@ struct CommonOptions {
   std::optional<Integrator> integrator;
   std::optional<StepRule> stepRule;
   bool marchEmpty = false;
+  std::optional<double> tolerance_255;  // in place of step and detail: error of the picture, RMSE on 0..255 (measure/tolerance.h)
   std::optional<double> step, detail;
   std::optional<std::uint32_t> seed;
   std::optional<Exposure> exposure;  // in place of the scene's and of every view's

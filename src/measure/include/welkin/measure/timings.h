@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "welkin/measure/image_compare.h"
+#include "welkin/measure/tolerance.h"
 #include "welkin/measure/statistics.h"
 #include "welkin/render/renderer.h"
 
@@ -52,6 +53,13 @@ struct PassRow {
   double share = 0;  // of the sum of all passes' wall times
 };
 
+// A march that was picked for a tolerance (measure/tolerance.h).
+struct ToleranceRow {
+  int pathFrame = 0;
+  MarchChoice choice;
+  std::optional<double> reached_255;  // over the whole picture, where that was measured
+};
+
 class TimingReport {
  public:
   ReportContext context;
@@ -59,6 +67,9 @@ class TimingReport {
   std::vector<FrameRow> frames;
   std::vector<QualityRow> quality;
   std::vector<PopRow> pops;
+  std::optional<double> tolerance_255;  // asked for
+  std::vector<ToleranceRow> tolerance;  // newest last
+  std::optional<double> time_ms;        // of one picture with every pixel marched: median of repeated frames, wall
   std::vector<LeftOut> leftOut;
   std::vector<std::string> passOrder;  // passes are listed in this order, unknown ones after them
   std::map<std::string, std::uint64_t> memoryByName;

@@ -92,6 +92,8 @@ class Renderer {
   // Draws this view from the tree as it is now, every pixel marched; no edit is applied; history, frame count and metered exposure
   // stay. For comparing: image() and radiance() then return this picture.
   void preview(const View& view);
+  // The same for some pixels only (x, y from the top left); the others show what was there before. What these rays met is counted.
+  Result<FrameCounters> preview(const View& view, std::span<const glm::ivec2> pixels);
   // For the reference (docs/reference.md): the view's rays, the tree as preview(view) would see it (clouds only), and preview() with what
   // each pixel's ray through the clouds brings given, width * height from the top row, instead of marched.
   shared::CameraBlock camera(const View& view) const;
@@ -99,6 +101,7 @@ class Renderer {
   Result<void> drawWith(const View& view, std::span<const shared::CloudWeights> clouds);
   Image8 image() const;
   ImageF radiance() const;  // without pixels if nobody was to read it (RenderSettings::linear)
+  double drawnDetail(const View& view) const;  // nodes a radian that the tree has for this view, or shownDetail if less
   double shownDetail(const View& view) const;  // nodes a radian past which voxels are finer than this view's pixels
   const FramePlan& plan() const;  // of all frames; FrameStats::leftOut says what one frame does without
   const Scene& scene() const;
