@@ -45,9 +45,10 @@ check-error: setup data ## what must hold of error against run time, line by lin
 truth: build ## make anew what has changed of the truth of the sky, tests/truth/sky/
 	@/usr/bin/python3 scripts/make_truth.py --build $(BUILD) $(TRUTH)
 
-figures: setup ## the figure of the sky's error, from benchmarks/results/check-sky.json
+figures: setup ## the figures of docs/, from benchmarks/results/
 	@mkdir -p docs/figures
 	@/usr/bin/python3 scripts/plot_sky.py benchmarks/results/check-sky.json -o docs/figures/sky-error.png
+	@/usr/bin/python3 scripts/plot_converge.py benchmarks/results/converge-near.json -o docs/figures/converge.png
 
 extras: build data ## the documented pictures at full size, and the zoom series
 	@scripts/extras.sh $(BUILD) $(OUT)/pictures

@@ -34,6 +34,8 @@ void addConverge(CLI::App& app, Action& action, const std::string& commandLine) 
       ->take_all();
   addParsed<TruthKind>(*command, "--truth", "what errors are from: " + namesText(kTruthNames), parseName<TruthKind>(kTruthNames),
                        [o](TruthKind kind) { o->truth = kind; });
+  command->add_option("--truth-every", o->truthEvery, "tree, source: of N x N pixels one (default: 1; source: 8)")
+      ->check(CLI::Range(1, 1000));
   command->add_option("--repeat", o->repetitions, "timed frames of each setting (default: 7)")->check(CLI::Range(1, 1000));
   command->add_option("--poses", o->poses, "poses of a path, evenly along it (default: 5)")->check(CLI::Range(1, 1000));
   auto tolerances = std::make_shared<std::vector<double>>();

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
-#include "converge_trees.h"
+#include "converge_rows.h"
+#include "converge_truth.h"
 #include "idle.h"
 #include "welkin/app/draw.h"
 #include "welkin/app/flight.h"
@@ -18,13 +20,19 @@
 namespace welkin::app {
 namespace {
 
-using measure::ConvergeRow, measure::ConvergeSetting, measure::Frames;
+using measure::ConvergeSetting, measure::Frames;
 
-constexpr int kHistoryFrames = 16;     // one pixel in 16 a frame: until every pixel is marched
-constexpr double kTruthStep = 1 / 8.;  // of the finest step of the sweep,
+constexpr int kHistoryFrames = 16;      // one pixel in 16 a frame: until every pixel is marched
+constexpr double kTruthStep = 1 / 8.;   // of the finest step of the sweep,
 constexpr double kTruthMost = 1 / 32.;  // and at most so much of the scene's own
-constexpr double kShowFull_255 = 16;   // difference that is shown as white
-constexpr std::size_t kFromFront = 4;  // pictures of differences, evenly along the front; and the worst
+constexpr double kRayTolerance = 1e-5;  // of a ray's weights, 1/sr: 0.03 of 255 in middle grey
+constexpr int kSourceEvery = 8;         // a ray through the source costs a second
+
+void keepOnly(std::vector<float>& values, const std::vector<std::uint32_t>& pixels) {
+  std::vector<float> kept(values.size(), 0.0f);
+  for (const std::uint32_t p : pixels) kept[p] = values[p];
+  values = std::move(kept);
+}
 
 class Convergence {
  public:
@@ -39,8 +47,10 @@ class Convergence {
       // A preset's smaller budgets may be less than the scene needs; what was asked for by name must work.
       if (!opened && (!options_.sweep.empty() || i == 0)) return opened;
       if (!opened) log::warn("{}: left out: {}", settings_[i].name, opened.error().message);
-      if (opened) ++i;
-      else settings_.erase(settings_.begin() + std::ptrdiff_t(i));
+      if (opened)
+        ++i;
+      else
+        settings_.erase(settings_.begin() + std::ptrdiff_t(i));
     }
     works_.resize(settings_.size());
     truth_ = truthSetting();
@@ -53,29 +63,21 @@ class Convergence {
 
   measure::ConvergeReport report() {
     measure::ConvergeReport out;
-    for (std::size_t i = 0; i < settings_.size(); ++i) out.rows.push_back(row(i));
-    addBest(out.rows);
+    for (std::size_t i = 0; i < settings_.size(); ++i)
+      out.rows.push_back(rowOf(settings_[i], works_[i], trees_->settled(settings_[i]), trees_->software()));
+    addBest(out.rows, works_);
     out.view = poses_.name;
     out.poses = int(poses_.views.size());
     out.repetitions = options_.repetitions;
     out.clock = trees_->software() ? "CPU of the process, all cores added, of all passes of a frame" : "GPU, of all passes of a frame";
     out.truth.kind = kTruthNames[std::size_t(options_.truth)];
-    out.truth.description = fmt::format("{}, every pixel marched", truth_.name);
+    out.truth.description = describeTruth(truthSettings());
     out.truth.tolerance_255 = measure::joined(truthErrors_).rmse_255;
-    addPictures(out);
+    addPictures(out, works_, firstTruth_);
     return out;
   }
 
  private:
-  struct Work {  // what is known of one setting so far
-    std::vector<double> time_ms;
-    std::map<std::string, std::vector<double>> passes_ms;
-    std::vector<measure::ImageError> errors;
-    std::vector<Image8> pictures;  // 8 bits, by pose: what best_rmse_255 is of
-    Image8 difference;             // from the truth, of the first pose
-    FrameStats stats;
-  };
-
   // The finest tree of all, marched far finer than any setting.
   ConvergeSetting truthSetting() const {
     ConvergeSetting t = settings_.front();
@@ -93,8 +95,6 @@ class Convergence {
     t.quality.detail = 0;
     t.quality.step = step;
     t.frames = Frames::Full;
-    t.name = fmt::format("{}, depth {}, {} {} {:g}", bytesText(t.quality.budget_bytes), t.quality.depth,
-                         kIntegratorNames[std::size_t(t.quality.integrator)], kStepRuleNames[std::size_t(t.quality.stepRule)], step);
     return t;
   }
 
@@ -119,16 +119,20 @@ class Convergence {
     const View& view = poses_.views[pose];
     ev_ = *view.exposure_ev;
     const double rounds = options_.repetitions + 2.0;
+    for (const auto& s : settings_)  // light is made for the detail that is sampled: no setting's may be left
+      if (auto used = trees_->of(s).setMarch(truth_.quality); !used) return used;
     const auto share = [&](double part) { return (double(pose) + part) / double(poses_.views.size()); };
     if (auto settled = trees_->settle(view, [&](double f) { return update(share(f / rounds), "settling"); }); !settled) return settled;
-    if (auto drawn = drawTruth(view, pose); !drawn) return drawn;
+    const auto truthShown = [&](double f) { return update(share(1 / rounds), fmt::format("truth {:.0f} %", 100 * f)); };
+    if (auto looked = lookAtTruth(view, pose, truthShown); !looked) return looked;
     // Round 0 compiles shaders, warms caches and gives the pictures; the others are timed. They go there and back, so that no setting
     // always follows the same one and drift favours none.
     for (int round = 0; round <= options_.repetitions; ++round) {
       for (std::size_t n = 0; n < settings_.size(); ++n) {
         const std::size_t i = round % 2 == 0 ? n : settings_.size() - 1 - n;
         const double part = (1 + round + double(n) / double(settings_.size())) / rounds;
-        if (!update(share(part), settings_[i].name)) return Error{fmt::format("{}: stopped before all was measured", options_.input.string())};
+        if (!update(share(part), settings_[i].name))
+          return Error{fmt::format("{}: stopped before all was measured", options_.input.string())};
         const bool once = settings_[i].frames == Frames::Moving;
         if (once && round > 0) continue;
         if (auto done = once ? fly(i, pose) : still(i, view, pose, round); !done) return done;
@@ -142,22 +146,19 @@ class Convergence {
     return !stopRequested();
   }
 
-  Result<void> drawTruth(const View& view, std::size_t pose) {
-    Renderer& renderer = trees_->of(truth_);
-    for (const double step : {2.0, 1.0}) {  // the difference of the two bounds what is left in the finer: the march is of first order at least
-      ConvergeSetting s = truth_;
-      s.quality.step *= step;
-      if (auto used = renderer.setMarch(s.quality); !used) return used;
-      renderer.preview(view);
-      const ImageF coarser = std::move(truthLight_);
-      truthLight_ = renderer.radiance();
-      if (step > 1) continue;
-      const auto error = measure::compareShown(truthLight_, coarser, curve(), ev_);
-      if (!error) return error.error();
-      truthErrors_.push_back(*error);
-    }
-    truthImage_ = renderer.image();
-    if (pose == 0) firstTruth_ = truthImage_;
+  TruthSettings truthSettings() const {
+    const int every =
+        options_.truth == TruthKind::Gpu ? 1 : options_.truthEvery.value_or(options_.truth == TruthKind::Source ? kSourceEvery : 1);
+    return {options_.truth, truth_.quality, every, kRayTolerance, curve(), ev_};
+  }
+
+  Result<void> lookAtTruth(const View& view, std::size_t pose, const std::function<bool(double)>& progress) {
+    auto drawn = drawTruth(trees_->of(truth_), view, poses_.size, truthSettings(), progress);
+    if (!drawn) return drawn.error();
+    drawn_ = std::move(*drawn);
+    drawnLight_ = chosen(drawn_.light, drawn_.pixels);
+    truthErrors_.push_back(drawn_.tolerance);
+    if (pose == 0) firstTruth_ = drawn_.image;
     return {};
   }
 
@@ -173,7 +174,7 @@ class Convergence {
     if (trees_->software()) waitUntilIdle();
     const FrameStats stats = renderer.frame(view, full ? FrameMode::Full : FrameMode::Reprojected);
     if (round > 0) {
-      addTimes(works_[i], stats);
+      addTimes(works_[i], stats, trees_->software());
       return {};
     }
     return keepPicture(works_[i], renderer, stats, pose);
@@ -190,98 +191,34 @@ class Convergence {
     for (std::size_t k = 1; k <= before.size(); ++k) {
       if (trees_->software()) waitUntilIdle();
       stats = renderer.frame(k < before.size() ? before[k] : poses_.views[pose]);
-      addTimes(works_[i], stats);
+      addTimes(works_[i], stats, trees_->software());
     }
     if (auto kept = keepPicture(works_[i], renderer, stats, pose); !kept) return kept;
     renderer.settle(poses_.views[pose]);
     return {};
   }
 
-  Result<void> keepPicture(Work& work, Renderer& renderer, const FrameStats& stats, std::size_t pose) {
+  Result<void> keepPicture(MeasuredSetting& work, Renderer& renderer, const FrameStats& stats, std::size_t pose) {
     const ImageF light = renderer.radiance();
     const Image8 image = renderer.image();
-    auto error = measure::compareShown(truthLight_, light, curve(), ev_);
+    auto error = measure::compareShown(drawnLight_, chosen(light, drawn_.pixels), curve(), ev_);
     if (!error) return error.error();
-    const auto flip = measure::flipDifference(truthImage_, image);
-    if (!flip) return flip.error();
-    error->flip = flip->mean;
+    error->flip = std::numeric_limits<double>::quiet_NaN();
+    if (drawn_.pixels.empty()) {  // it looks at neighbours
+      const auto flip = measure::flipDifference(drawn_.image, image);
+      if (!flip) return flip.error();
+      error->flip = flip->mean;
+    }
     work.errors.push_back(*error);
     work.pictures.push_back(image);
     work.stats = stats;
     if (pose == 0) {
-      auto difference = measure::shownDifference(truthLight_, light, curve(), ev_);
+      auto difference = measure::shownDifference(drawn_.light, light, curve(), ev_);
+      if (!drawn_.pixels.empty()) keepOnly(difference, drawn_.pixels);
       for (float& d : difference) d = float(d / kShowFull_255);
       work.difference = measure::flipPicture({image.width, image.height, std::move(difference), 0});
     }
     return {};
-  }
-
-  void addTimes(Work& work, const FrameStats& stats) const {
-    double sum = 0;
-    for (const auto& [name, time] : stats.passes) {
-      const double ms = trees_->software() ? time.cpu_ms : time.wall_ms;
-      work.passes_ms[name].push_back(ms);
-      sum += ms;
-    }
-    work.time_ms.push_back(sum);
-  }
-
-  ConvergeRow row(std::size_t i) const {
-    const Work& work = works_[i];
-    ConvergeRow out;
-    out.setting = settings_[i];
-    out.time_ms = measure::spreadOf(work.time_ms);
-    for (const auto& [name, times] : work.passes_ms) out.passes_ms[name] = measure::spreadOf(times);
-    out.bytes = work.stats.bytesUsed;
-    out.samples = work.stats.counters.samples;
-    out.cells = work.stats.counters.cells;
-    out.residency = work.stats.residency;
-    const FrameStats& settled = trees_->settled(settings_[i]);
-    out.settle_ms = trees_->software() ? settled.cpu_ms : settled.wall_ms;
-    if (const auto light = settled.passes.find("light"); light != settled.passes.end())
-      out.light_ms = trees_->software() ? light->second.cpu_ms : light->second.wall_ms;
-    out.error = measure::joined(work.errors);
-    return out;
-  }
-
-  // The thesis compares with its own best picture: here the finest step on the greatest budget with the same integrator and rule.
-  void addBest(std::vector<ConvergeRow>& rows) const {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Quality& q = settings_[i].quality;
-      std::size_t best = i;
-      for (std::size_t k = 0; k < rows.size(); ++k) {
-        const Quality &other = settings_[k].quality, &b = settings_[best].quality;
-        if (other.integrator != q.integrator || other.stepRule != q.stepRule || other.skipEmpty != q.skipEmpty) continue;
-        const bool finer = other.budget_bytes != b.budget_bytes ? other.budget_bytes > b.budget_bytes : other.step < b.step;
-        if (finer) best = k;
-      }
-      std::vector<measure::ImageError> errors;
-      for (std::size_t pose = 0; pose < works_[i].pictures.size(); ++pose)
-        if (auto error = measure::compare(works_[best].pictures[pose], works_[i].pictures[pose])) errors.push_back(*error);
-      rows[i].best_rmse_255 = measure::joined(errors).rmse_255;
-    }
-  }
-
-  void addPictures(measure::ConvergeReport& out) const {
-    if (auto png = pngBytes(firstTruth_, {})) out.pictures.push_back({"truth", out.truth.description, *png});
-    std::vector<std::string> names;
-    const auto add = [&names](const std::string& name) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    };
-    const auto front = measure::paretoFront(out.rows);
-    const auto worst = std::max_element(out.rows.begin(), out.rows.end(),
-                                        [](const auto& a, const auto& b) { return a.error.rmse_255 < b.error.rmse_255; });
-    if (worst != out.rows.end()) add(worst->setting.name);
-    for (std::size_t i = 0; i < kFromFront && !front.empty(); ++i) add(front[i * (front.size() - 1) / (kFromFront - 1)]);
-    for (const auto& name : names) {
-      for (std::size_t i = 0; i < out.rows.size(); ++i) {
-        if (out.rows[i].setting.name != name) continue;
-        const auto& r = out.rows[i];
-        if (auto png = pngBytes(works_[i].difference, {}))
-          out.pictures.push_back({name, fmt::format("RMSE {:.3f}, {:.1f} ms; black: none, palest: {:g}/255 and more", r.error.rmse_255, r.time_ms.median,
-                                                    kShowFull_255), *png});
-      }
-    }
   }
 
   ToneCurve curve() const { return poses_.scene.output.toneCurve; }
@@ -292,11 +229,12 @@ class Convergence {
   ConvergeSetting truth_;
   Trees* trees_ = nullptr;
   Progress* progress_ = nullptr;
-  std::vector<Work> works_;
-  double ev_ = 0;  // of the pose
-  ImageF truthLight_;
-  Image8 truthImage_, firstTruth_;
-  std::vector<measure::ImageError> truthErrors_;  // of each pose: the truth at twice its step
+  std::vector<MeasuredSetting> works_;
+  double ev_ = 0;       // of the pose
+  TruthPicture drawn_;  // of the pose
+  ImageF drawnLight_;   // its pixels that count
+  Image8 firstTruth_;
+  std::vector<measure::ImageError> truthErrors_;  // tolerances, by pose
 };
 
 }  // namespace

@@ -139,7 +139,8 @@ std::vector<ConvergeSetting> presetSettings(const std::string& preset, const Con
   for (const char* name : kStepRuleNames) rules.values.emplace_back(name);
   for (const std::uint64_t part : {1, 2, 4}) budgets.values.push_back(bytesExact(budget / part));
   std::vector<ConvergeSetting> out;
-  if (preset == "quick") merge(out, combine(base, {{"integrator", {"rectangle", "exponential-linear"}}, {"step", {"1.28", "0.64", "0.32"}}}));
+  if (preset == "quick")
+    merge(out, combine(base, {{"integrator", {"rectangle", "exponential-linear"}}, {"step", {"1.28", "0.64", "0.32"}}}));
   if (preset == "default") {
     merge(out, combine(base, {integrators, steps}));
     merge(out, combine(base, {budgets}));

@@ -34,8 +34,8 @@ std::string residencyText(const ConvergeRow& row) {
   std::size_t deepest = 0;
   for (std::size_t i = 0; i < std::size(r.bricksByLevel); ++i) deepest = r.bricksByLevel[i] ? i : deepest;
   return fmt::format("{} bricks of {} ({:.0f} %), {} empty nodes, down to level {}, {} pending, {:.1f} nodes a radian", r.bricks,
-                     r.brickCapacity, r.brickCapacity ? 100.0 * r.bricks / r.brickCapacity : 0.0, r.emptyNodes, deepest,
-                     r.pendingBricks, row.residency.selectedDetail);
+                     r.brickCapacity, r.brickCapacity ? 100.0 * r.bricks / r.brickCapacity : 0.0, r.emptyNodes, deepest, r.pendingBricks,
+                     row.residency.selectedDetail);
 }
 
 BudgetStepTable measured(const std::vector<ConvergeRow>& rows, bool thesis) {
@@ -76,7 +76,8 @@ Result<ThesisBudget> fillingBudget(const Poses& poses, Trees& trees, const Conve
     if (auto settled = trees.settle(poses.views.front(), [](double) { return !stopRequested(); }); !settled) return settled.error();
     const auto r = trees.settled(setting).residency;
     trees.close();
-    const double full = std::max(r.bricks / double(std::max(1u, r.brickCapacity)), r.groups / (kGroupsPerBrick * std::max(1u, r.brickCapacity)));
+    const double full =
+        std::max(r.bricks / double(std::max(1u, r.brickCapacity)), r.groups / (kGroupsPerBrick * std::max(1u, r.brickCapacity)));
     if (full > kFull) continue;
     Scene scene = poses.scene;
     scene.quality = setting.quality;
@@ -111,8 +112,12 @@ std::vector<BudgetStepTable> thesisTables(const std::vector<ConvergeRow>& rows) 
     for (const auto& p : row) cells.push_back({p.time_ms, p.rmse_255, std::nullopt, ""});
   }
   std::vector<BudgetStepTable> out{published, measured(rows, true), measured(rows, false)};
-  out[1].title = "Here, its way: rectangles of the step times half the node, empty nodes marched; RMSE against its own best picture, in brackets against the truth";
-  out[2].title = "Here, ours: the default integrator and step rule at the same factors; RMSE against its own best picture, in brackets against the truth";
+  out[1].title =
+      "Here, its way: rectangles of the step times half the node, empty nodes marched; RMSE against its own best picture, in brackets "
+      "against the truth";
+  out[2].title =
+      "Here, ours: the default integrator and step rule at the same factors; RMSE against its own best picture, in brackets against the "
+      "truth";
   return out;
 }
 

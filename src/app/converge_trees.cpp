@@ -60,7 +60,8 @@ Result<Poses> loadPoses(const ConvergeOptions& options) {
     out.name = start->viewName;
     out.views = {start->view};
   }
-  if (!out.scene.clouds) return Error{fmt::format("{}: expected clouds: without them there is no march to measure", options.input.string())};
+  if (!out.scene.clouds)
+    return Error{fmt::format("{}: expected clouds: without them there is no march to measure", options.input.string())};
   apply(options.common, out.scene);
   for (auto& view : out.views) apply(options.common, view);
   for (auto& frames : out.before)
@@ -88,7 +89,7 @@ Result<void> Trees::open(const ConvergeSetting& setting) {
   settings.height = size_.height;
   settings.brickBits = setting.brickBits;
   settings.light = setting.light;
-  settings.forced = {"nothing-moves"};  // a frame like the last one is what is measured
+  settings.forced = {"nothing-moves"};  // what a frame costs is what is asked
   auto renderer = Renderer::create(*context_, scene, settings);
   if (!renderer) return renderer.error();
   for (const auto& note : (*renderer)->notes()) {

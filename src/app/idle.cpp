@@ -8,9 +8,9 @@
 namespace welkin::app {
 namespace {
 
-constexpr double kLook_ms = 2;      // how long the process is watched,
-constexpr double kIdleCpu_ms = 0.3; // and the CPU time below which its threads count as idle: the watching itself costs 0.05
-constexpr int kMostLooks = 5000;    // 10 s: selection takes milliseconds
+constexpr double kLook_ms = 2;       // how long the process is watched,
+constexpr double kIdleCpu_ms = 0.3;  // and the CPU time below which its threads count as idle: the watching itself costs 0.05
+constexpr int kMostLooks = 5000;     // 10 s: selection takes milliseconds
 
 }  // namespace
 

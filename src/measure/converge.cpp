@@ -81,10 +81,11 @@ std::string ConvergeReport::table() const {
                                 "RMSE", "relative", "p99", "max", "> 2", "flip", "bytes");
   for (const auto& row : rows) {
     const bool best = std::find(front.begin(), front.end(), row.setting.name) != front.end();
-    out += fmt::format("{:<{}}  {:>9.2f} {:>13}  {:>8.4f} {:>8.5f} {:>6.2f} {:>6.1f} {:>6.2f}% {:>7.5f}  {:>9}{}\n", row.setting.name, width,
-                       row.time_ms.median, fmt::format("{:.2f}..{:.2f}", row.time_ms.p25, row.time_ms.p75), row.error.rmse_255,
-                       row.error.relativeRmse, row.error.p99_255, row.error.max_255, 100 * row.error.shareOver2, row.error.flip,
-                       bytesText(row.bytes), best ? "  *" : "");
+    out +=
+        fmt::format("{:<{}}  {:>9.2f} {:>13}  {:>8.4f} {:>8.5f} {:>6.2f} {:>6.1f} {:>6.2f}% {:>7}  {:>9}{}\n", row.setting.name, width,
+                    row.time_ms.median, fmt::format("{:.2f}..{:.2f}", row.time_ms.p25, row.time_ms.p75), row.error.rmse_255,
+                    row.error.relativeRmse, row.error.p99_255, row.error.max_255, 100 * row.error.shareOver2,
+                    std::isfinite(row.error.flip) ? fmt::format("{:.5f}", row.error.flip) : "-", bytesText(row.bytes), best ? "  *" : "");
   }
   out += fmt::format("* no other setting is faster and nearer. RMSE, p99, max on 0-255; truth: {} ({:.4f} RMSE).\n", truth.description,
                      truth.tolerance_255);

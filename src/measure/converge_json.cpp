@@ -39,12 +39,17 @@ Json rowJson(const ConvergeRow& row) {
   int deepest = 0;
   for (int i = 0; i < int(std::size(r.bricksByLevel)); ++i) deepest = r.bricksByLevel[i] ? i : deepest;
   for (int i = 0; i <= deepest; ++i) levels.push_back(r.bricksByLevel[i]);
-  out["residency"] = {{"nodes", r.nodes},        {"bricks", r.bricks},
-                      {"brick_capacity", r.brickCapacity}, {"empty", r.emptyNodes},
-                      {"pending_bricks", r.pendingBricks}, {"selected_detail", r.selectedDetail},
-                      {"bricks_by_level", levels},         {"settled", r.settled}};
-  out["error"] = {{"rmse_255", e.rmse_255}, {"relative_rmse", e.relativeRmse}, {"p99_255", e.p99_255}, {"max_255", e.max_255},
-                  {"over_2_share", e.shareOver2}, {"flip", e.flip}, {"not_finite", e.notFinite}};
+  out["residency"] = {{"nodes", r.nodes},
+                      {"bricks", r.bricks},
+                      {"brick_capacity", r.brickCapacity},
+                      {"empty", r.emptyNodes},
+                      {"pending_bricks", r.pendingBricks},
+                      {"selected_detail", r.selectedDetail},
+                      {"bricks_by_level", levels},
+                      {"settled", r.settled}};
+  out["error"] = {{"rmse_255", e.rmse_255},   {"relative_rmse", e.relativeRmse}, {"p99_255", e.p99_255},
+                  {"max_255", e.max_255},     {"over_2_share", e.shareOver2},    {"flip", e.flip},
+                  {"not_finite", e.notFinite}};
   if (row.best_rmse_255) out["error"]["rmse_255_of_best"] = *row.best_rmse_255;
   return out;
 }

@@ -7,7 +7,7 @@ namespace welkin::measure {
 
 struct PlotPoint {
   double x = 0, y = 0;
-  std::string name;     // what is shown when it is pointed at
+  std::string name;  // what is shown when it is pointed at
   bool ringed = false;
 };
 struct PlotLine {
@@ -18,9 +18,9 @@ struct PlotLine {
 struct LogPlot {
   std::string xTitle, yTitle, label;  // label: for those who cannot see it
   std::vector<PlotLine> lines;
-  std::vector<PlotPoint> front;       // a thick line below the others
-  double floor = 0;                   // errors below it say nothing: shaded
-  std::vector<int> slopes;            // guides y ~ x^n through the upper right
+  std::vector<PlotPoint> front;  // a thick line below the others
+  double floor = 0;              // errors below it say nothing: shaded
+  std::vector<int> slopes;       // guides y ~ x^n through the upper right
 };
 
 std::string svg(const LogPlot& plot);  // points that are not positive are left out

@@ -16,11 +16,11 @@ TEST(Sweep, axesAreReadWithCare) {
   ASSERT_TRUE(axis.ok());
   EXPECT_EQ(axis->name, "step");
   EXPECT_THAT(axis->values, ElementsAre("0.1", "0.2"));
-  for (const char* right : {"integrator=simpson-3/8", "step-rule=node", "budget=64MiB", "depth=24", "detail=0", "frames=still", "brick-bits=8",
-                            "light=0.5", "skip-empty=0"})
+  for (const char* right : {"integrator=simpson-3/8", "step-rule=node", "budget=64MiB", "depth=24", "detail=0", "frames=still",
+                            "brick-bits=8", "light=0.5", "skip-empty=0"})
     EXPECT_TRUE(parseSweep(right).ok()) << right;
-  for (const char* wrong : {"", "step", "step=", "step=1,", "step=nan", "step=1e-9", "colour=red", "integrator=euler", "depth=25", "depth=1.5",
-                            "brick-bits=4", "budget=1", "light=0", "skip-empty=2", "frames=all"})
+  for (const char* wrong : {"", "step", "step=", "step=1,", "step=nan", "step=1e-9", "colour=red", "integrator=euler", "depth=25",
+                            "depth=1.5", "brick-bits=4", "budget=1", "light=0", "skip-empty=2", "frames=all"})
     EXPECT_FALSE(parseSweep(wrong).ok()) << wrong;
 }
 
@@ -73,7 +73,7 @@ TEST(Thesis, budgetsAndStepsOfTheTable) {
   EXPECT_EQ(tables[0].cells[2][0].time_ms, 12.8);  // published: 2 GiB, step 0.1
   EXPECT_THAT(tables[1].budgets, ElementsAre("500 MiB, all of the tree", "300 MiB, half of it", "200 MiB, a quarter"));
   EXPECT_THAT(tables[1].steps, ElementsAre("step 0.1", "step 0.2", "step 0.4"));
-  EXPECT_EQ(tables[1].cells[2][1].time_ms, 7);   // smallest budget, middle step
+  EXPECT_EQ(tables[1].cells[2][1].time_ms, 7);  // smallest budget, middle step
   EXPECT_EQ(tables[2].cells[0][0].time_ms, 9);
 }
 

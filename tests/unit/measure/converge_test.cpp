@@ -1,11 +1,11 @@
 // Error against time: pictures, fronts and orders that are worked out by hand; the report by its promised keys.
+#include "welkin/measure/converge.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "welkin/measure/converge.h"
 
 namespace welkin::measure {
 namespace {
@@ -30,8 +30,8 @@ TEST(Spread, medianAndQuartiles) {
 }
 
 TEST(CompareShown, throughExposureAndToneCurve) {
-  // Reinhard's curve of grey y = 8 x (base exposure 8, EV 0): y (1 + y / 16) / (1 + y). x = 1/8: 17/32; x = 1/16: 0.5 * 1.03125 / 1.5 = 0.34375.
-  // Their sRGB values (IEC 61966-2-1): 0.755096 and 0.621914 of 255.
+  // Reinhard's curve of grey y = 8 x (base exposure 8, EV 0): y (1 + y / 16) / (1 + y). x = 1/8: 17/32; x = 1/16: 0.5 * 1.03125 / 1.5 =
+  // 0.34375. Their sRGB values (IEC 61966-2-1): 0.755096 and 0.621914 of 255.
   const ImageF first{1, 1, {0.125f, 0.125f, 0.125f, 1}}, second{1, 1, {0.0625f, 0.0625f, 0.0625f, 1}};
   const auto shown = [](double v) { return 255 * (1.055 * std::pow(v, 1 / 2.4) - 0.055); };
   const double expected = shown(17.0 / 32) - shown(0.34375);
@@ -64,8 +64,10 @@ TEST(Joined, squaresAreAveragedAndGreatestKept) {
 }
 
 TEST(Pareto, aMadeUpList) {
-  const std::vector<ConvergeRow> rows{row("slow and fine", 9, 0.1), row("beaten", 5, 3),       row("fast and coarse", 1, 4), row("middle", 4, 1),
-                                      row("as middle", 4, 1),      row("slower, no better", 6, 1), row("broken", 0.5, std::nan(""))};
+  const std::vector<ConvergeRow> rows{row("slow and fine", 9, 0.1),    row("beaten", 5, 3),
+                                      row("fast and coarse", 1, 4),    row("middle", 4, 1),
+                                      row("as middle", 4, 1),          row("slower, no better", 6, 1),
+                                      row("broken", 0.5, std::nan(""))};
   EXPECT_THAT(paretoFront(rows), ElementsAre("fast and coarse", "middle", "slow and fine"));
   EXPECT_TRUE(paretoFront({}).empty());
 }
@@ -115,8 +117,8 @@ TEST(Report, jsonHasWhatIsPromised) {
   EXPECT_EQ(j["truth"]["tolerance"], 0.01);
   EXPECT_EQ(j["context"]["view"], "near");
   ASSERT_EQ(j["settings"].size(), 4u);
-  for (const char* key : {"name", "integrator", "step_rule", "step", "budget_bytes", "depth", "detail", "frames", "time_ms", "time_spread_ms", "passes",
-                          "bytes", "samples", "cells", "residency", "error"})
+  for (const char* key : {"name", "integrator", "step_rule", "step", "budget_bytes", "depth", "detail", "frames", "time_ms",
+                          "time_spread_ms", "passes", "bytes", "samples", "cells", "residency", "error"})
     EXPECT_TRUE(j["settings"][0].contains(key)) << key;
   for (const char* key : {"rmse_255", "relative_rmse", "p99_255", "max_255", "over_2_share", "flip", "not_finite"})
     EXPECT_TRUE(j["settings"][0]["error"].contains(key)) << key;

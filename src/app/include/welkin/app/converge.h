@@ -11,15 +11,16 @@
 
 namespace welkin::app {
 
-enum class TruthKind { Gpu };
-inline constexpr std::array<const char*, 1> kTruthNames{"gpu"};
+// The renderer's own march in very fine steps; the resident tree, or the cloud source without voxels, in double precision on the CPU.
+enum class TruthKind { Gpu, Tree, Source };
+inline constexpr std::array<const char*, 3> kTruthNames{"gpu", "tree", "source"};
 
 struct SweepAxis {
   std::string name;
   std::vector<std::string> values;
 };
-inline constexpr std::array<const char*, 10> kSweepAxes{"step",         "integrator",   "step-rule", "budget", "depth",
-                                                        "detail", "frames", "brick-bits", "light",  "skip-empty"};
+inline constexpr std::array<const char*, 10> kSweepAxes{"step",   "integrator", "step-rule",  "budget", "depth",
+                                                        "detail", "frames",     "brick-bits", "light",  "skip-empty"};
 Result<SweepAxis> parseSweep(const std::string& text);  // "step=0.1,0.2"; every value is read, so that wrong ones show at once
 
 // Every combination of the axes' values, the first axis slowest; what no axis names is the base's. Settings of one series differ in the
@@ -28,13 +29,14 @@ std::vector<measure::ConvergeSetting> combine(const measure::ConvergeSetting& ba
 // Adds settings; one that is there already only joins the series.
 void merge(std::vector<measure::ConvergeSetting>& settings, const std::vector<measure::ConvergeSetting>& more);
 
-inline constexpr std::array<const char*, 8> kPresetNames{"default", "quick",  "rules", "detail", "frames", "bricks", "light", "thesis"};
+inline constexpr std::array<const char*, 8> kPresetNames{"default", "quick", "rules", "detail", "frames", "bricks", "light", "thesis"};
 // Settings of a preset but "thesis", which has to look for its budget first.
 std::vector<measure::ConvergeSetting> presetSettings(const std::string& preset, const measure::ConvergeSetting& base);
 
 // The thesis' Table 6.1: its steps and budgets with its way to integrate, and with ours.
 constexpr int kThesisDepth = 13;
-struct ThesisBudget {  // its budgets are those of the tree alone; ours cover tables, maps and the rest too, which no part of the tree changes
+struct ThesisBudget {  // its budgets are those of the tree alone; ours cover tables, maps and the rest too, which no part of the tree
+                       // changes
   std::uint64_t rest_bytes = 0, tree_bytes = 0;
   std::uint64_t of(std::uint64_t parts) const { return ((rest_bytes + tree_bytes / parts + (1 << 20) - 1) >> 20) << 20; }  // whole MiB
 };
@@ -49,6 +51,7 @@ struct ConvergeOptions {
   std::string preset = "default";
   std::vector<SweepAxis> sweep;  // in place of the preset's
   TruthKind truth = TruthKind::Gpu;
+  std::optional<int> truthEvery;   // tree, source: one pixel in so many squared; absent: all of a tree's, one in 64 of a source's
   int repetitions = 7, poses = 5;  // poses: of a path, evenly along it
   std::string command;
 };

@@ -25,8 +25,8 @@ struct ConvergeSetting {
   std::vector<std::string> series;  // lines of the plots that it is a point of
   Quality quality;
   Frames frames = Frames::Full;
-  int brickBits = 16;               // of density and light in a brick
-  double light = 1;                 // fineness of the rays to the sun
+  int brickBits = 16;  // of density and light in a brick
+  double light = 1;    // fineness of the rays to the sun
 };
 
 struct ConvergeRow {
@@ -50,8 +50,8 @@ struct ObservedOrder {
 };
 
 struct TruthInfo {
-  std::string kind;         // "gpu", "tree", "source"
-  std::string description;  // one line
+  std::string kind;          // "gpu", "tree", "source"
+  std::string description;   // one line
   double tolerance_255 = 0;  // RMSE: how far it may be from what it stands for
 };
 
