@@ -95,15 +95,6 @@ void gather(inout Gathered sum, float gain, Node node, float distance_m) {
   sum.weighted += gain * distance_m;
 }
 
-// Where a sample finds nothing the next one stands for two segments, then for three; where one of these finds cloud it is gone over again
-// in single ones. Cloud that is missed is thinner than the stride and at its edge, where there is little (docs/decisions/0013).
-#if SKIP_EMPTY && INTEGRATOR != 0
-const float kMostStride = 3.0;
-#else
-const float kMostStride = 1.0;
-#endif
-// Clouds lie in layers: along rays that go up or down their density changes faster than along level ones, which take longer segments.
-const float kLevelCount = 0.78, kUprightCount = 1.25;
 const float kErrorShare = 0.03;  // kAdaptive: what a segment may err in opacity, times step cubed: its error falls with the cube of its length
 const float kMostHalvings = 64.0;
 
@@ -119,7 +110,6 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   // The last midpoint. At first: from above lit through nothing; else none, for a camera may be inside a cloud, or see its dark side first.
   Node before = altitude > double(tree.bandTop_m) ? Node(0.0, sunSource(phases, 0.0), 1.0) : Node(-1.0, 0.0, 0.0);
   float alongUp_m = float(dot(position, dvec3(dir))), shellRadius_m = float(radius);  // the ray's zenith cosine at t is (alongUp + near + t) / r
-  float stride = 1.0;
   int visit = 0;
   // Every loop ends with its condition, and both sides of an `if` are cheap: software GL runs a loop's body once however it begins,
   // and both sides of every branch.
@@ -172,29 +162,26 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
     path.parentLocal = 0.5 * path.local + 3.5 * vec3(walkOctant(walk, t, level));
     uint perSample = path.parentWeight > 0.0 ? 2u : 1u;
     float upright = min(abs(alongUp_m + away) / shellRadius_m, 1.0);  // zenith cosine of the ray, either way
-    StepPlace place = StepPlace(span, 0.5 * levelSteps(level) * tree.stepLength_m, span * cellsAlong * perStep * (2.0 / 7.0) * (1.0 - 0.5 * path.parentWeight) * mix(kLevelCount, kUprightCount, upright), maxCodeValue(wordMaxCode(bounding)) * tree.maxExtinction_per_m * span,
-                                ray.transmittance, t, end, entryHalf_m, 0.5 * max(away, tree.sampleNear_m) / tree.pixelDetail);
+    StepPlace place = StepPlace(span, 0.5 * levelSteps(level) * tree.stepLength_m, span * cellsAlong * perStep * (2.0 / 7.0), path.parentWeight, upright,
+                                maxCodeValue(wordMaxCode(bounding)) * tree.maxExtinction_per_m * span, ray.transmittance, t, end, entryHalf_m,
+                                0.5 * max(away, tree.sampleNear_m) / tree.pixelDetail);
 #if INTEGRATOR == 4 || INTEGRATOR == 5 || INTEGRATOR == 0
     // one sample a segment
     float count = segmentCount(STEP_RULE, tree.step, place), dt = span / count;
-    float i = 0.0, mostStride = max(floor(kMostStride * (1.0 - upright) + 0.5), 1.0);
+    float i = integratorNode(INTEGRATOR, 0u);
     do {
-      stride = i == 0.0 ? min(min(stride, mostStride), max(floor(count * 0.25), 1.0)) : min(stride, max(count - i, 1.0));
-      float s = (i + integratorNode(INTEGRATOR, 0u) * stride) * dt;
+      float s = i * dt;
       Node node = nodeAt(path, s, phases);
       ray.samples += perSample;
-      bool thin = node.extinction_per_m <= 0.0, taken = thin || stride <= 1.0;
-      SegmentGains g = segmentGains(INTEGRATOR, vec4(taken ? node.extinction_per_m : 0.0, 0.0, 0.0, 0.0), dt);
+      SegmentGains g = segmentGains(INTEGRATOR, vec4(node.extinction_per_m, 0.0, 0.0, 0.0), dt);
       gather(sum, ray.transmittance * g.gain.x, node, t + s);
 #if INTEGRATOR == 5
-      if (taken && before.extinction_per_m < 0.0) before = node;
+      if (before.extinction_per_m < 0.0) before = node;
       gather(sum, ray.transmittance * g.gain.y, before, t + s);
-      before.sun = taken ? node.sun : before.sun;
-      before.sky = taken ? node.sky : before.sky;
+      before = node;
 #endif
       ray.transmittance *= g.transmittance;
-      i += taken ? stride : 0.0;
-      stride = thin ? min(stride + 1.0, mostStride) : 1.0;
+      i += 1.0;
     } while (i < count && ray.transmittance >= kOpaqueTransmittance);
 #else
     // Samples at both ends: the front's is the back's of the segment before.

@@ -10,15 +10,23 @@ WK_CONST uint kStepPixel = 3u;      // by the size of the node that a pixel can 
 WK_CONST uint kStepNode = 4u;       // step times half the node's size
 WK_CONST uint kStepRules = 5u;
 
-// Optical depth of a segment at the node's greatest density, in steps. Density varies along thin segments as along thick ones, and thin ones
-// do not saturate: they take finer steps. Behind cloud that hides most, errors hide too: steps grow to five times there (docs/decisions/0010).
-WK_CONST float kDepthShare = F(0.6);
-WK_CONST float kLeastCount = F(0.1);
+// The optical rule's constants, found by measurement (docs/decisions/0014). A segment may be so deep at the node's greatest density, in steps: density
+// varies along thin segments as along thick ones, and thin ones do not saturate. Behind cloud that hides most, errors hide too.
+WK_CONST float kDepthShare = F(.73);
+WK_CONST float kLeastCount = F(0.05);
+// Clouds lie in layers: along rays that go up or down density changes faster than along level ones.
+WK_CONST float kLevelCount = F(.19);
+WK_CONST float kUprightCount = F(2.08);
+// Where nodes are coarser than pixels show (the budget ends, or the depth), a segment's error covers many pixels and is seen: finer there.
+WK_CONST float kCoarseShare = F(.17);
+WK_CONST float kCoarseMost = F(2.15);
 
 struct StepPlace {
   float span_m;         // way through the brick
   float nodeHalf_m;     // half the node's size
   float halves;         // of the node's size in it, counted along the axis that the ray follows most
+  float parentWeight;   // of its parent, which fades in
+  float upright;        // |cosine| of the ray's zenith angle
   float bound;          // optical depth of it at the node's greatest density
   float transmittance;  // of what is in front
   float since_m;        // from the entry into the clouds' shell
@@ -32,7 +40,12 @@ WK_FN float segmentCount(uint rule, float step, StepPlace p) {
   if (rule == kStepUniform) count = F(64.0) * p.span_m / p.shell_m;
   if (rule == kStepGeometric) count = p.span_m / (p.entryHalf_m + F(0.0625) * p.since_m);
   if (rule == kStepPixel) count = p.span_m / p.pixelHalf_m;
-  if (rule == kStepOptical) count = min(p.halves, p.bound / kDepthShare) * mix(kLeastCount, F(1.0), p.transmittance);
+  if (rule == kStepOptical) {
+    // where a level fades out into its parent, segments grow to the parent's, twice as long
+    float halves = p.halves * mix(kLevelCount, kUprightCount, p.upright) * (F(1.0) - F(0.5) * p.parentWeight);
+    float coarse = clamp(kCoarseShare * p.nodeHalf_m / p.pixelHalf_m, F(1.0), kCoarseMost);
+    count = min(halves, p.bound / kDepthShare) * coarse * mix(kLeastCount, F(1.0), p.transmittance);
+  }
   return max(ceil(count / step), F(1.0));
 }
 
