@@ -60,14 +60,14 @@ TEST_F(Truth, MarchConvergesToTheReference) {
     const ImageF truth = truthOf(*renderer, view, tree, Fade::ByNode), smooth = truthOf(*renderer, view, tree, Fade::Smooth);
     double error[4];
     int n = 0;
-    for (const double step : {0.32, 0.16, 0.08, 0.01}) {
+    for (const double step : {0.32, 0.16, 0.08, 0.005}) {
       Quality quality = renderer->scene().quality;
       quality.step = step;
       ASSERT_TRUE(renderer->setMarch(quality).ok());
       renderer->preview(view);
       error[n++] = difference(renderer->radiance(), truth);
     }
-    std::printf("step 0.32: %.5f  0.16: %.5f  0.08: %.5f  0.01: %.5f; levels by node: %.5f\n", error[0], error[1], error[2], error[3],
+    std::printf("step 0.32: %.5f  0.16: %.5f  0.08: %.5f  0.005: %.5f; levels by node: %.5f\n", error[0], error[1], error[2], error[3],
                 difference(truth, smooth));
     EXPECT_GT(error[0], 0.003) << "the first step errs: else there is nothing to converge";
     EXPECT_LT(error[1], 0.5 * error[0]) << "of second order or nearly, where no kink is in the way";
