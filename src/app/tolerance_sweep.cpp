@@ -29,7 +29,11 @@ double median(std::vector<double> values) {
 class ViewSweep {
  public:
   ViewSweep(const ToleranceSweepOptions& options, Stage& stage, std::string name, View view)
-      : options_(options), renderer_(*stage.renderer), software_(stage.context->device().software), name_(std::move(name)), view_(std::move(view)) {}
+      : options_(options),
+        renderer_(*stage.renderer),
+        software_(stage.context->device().software),
+        name_(std::move(name)),
+        view_(std::move(view)) {}
 
   Result<Json> run() {
     auto drawn = drawConverged(renderer_, view_, [](double) { return !stopRequested(); });
@@ -43,8 +47,7 @@ class ViewSweep {
              {"candidates", Json::array()},
              {"choices", Json::array()}};
     for (const Setting& s : settings_)
-      out["candidates"].push_back(
-          {{"detail_share", s.detailShare}, {"step", s.step}, {"rmse_255", s.rmse_255}, {"time_ms", s.time_ms}});
+      out["candidates"].push_back({{"detail_share", s.detailShare}, {"step", s.step}, {"rmse_255", s.rmse_255}, {"time_ms", s.time_ms}});
     for (const double asked : options_.asked_255) {
       auto choice = choose(asked);
       if (!choice) return choice.error();
@@ -91,11 +94,20 @@ class ViewSweep {
       if (s.step == q.step && std::abs(s.detailShare - share) < 1e-6 * share) picked = &s;
       if (s.rmse_255 <= asked_255 && (!cheapest || s.time_ms < cheapest->time_ms)) cheapest = &s;
     }
-    Json out{{"asked", asked_255},          {"reached_rmse_255", kept->reached_255}, {"estimate_rmse_255", kept->choice.estimate_255},
-             {"step", q.step},              {"detail_share", share},                 {"candidates_drawn", kept->choice.tried},
-             {"rounds", kept->rounds + 1}, {"kept", kept->reached_255 <= asked_255}};
+    Json out{{"asked", asked_255},
+             {"reached_rmse_255", kept->reached_255},
+             {"estimate_rmse_255", kept->choice.estimate_255},
+             {"step", q.step},
+             {"detail_share", share},
+             {"candidates_drawn", kept->choice.tried},
+             {"rounds", kept->rounds + 1},
+             {"kept", kept->reached_255 <= asked_255}};
     if (picked) out["time_ms"] = picked->time_ms;
-    if (cheapest) out["cheapest"] = {{"step", cheapest->step}, {"detail_share", cheapest->detailShare}, {"time_ms", cheapest->time_ms}, {"rmse_255", cheapest->rmse_255}};
+    if (cheapest)
+      out["cheapest"] = {{"step", cheapest->step},
+                         {"detail_share", cheapest->detailShare},
+                         {"time_ms", cheapest->time_ms},
+                         {"rmse_255", cheapest->rmse_255}};
     return out;
   }
 
@@ -110,9 +122,10 @@ class ViewSweep {
 
 void print(const Json& view) {
   for (const auto& c : view["choices"])
-    fmt::print("{:16} asked {:4} reached {:6.3f}  detail {:.2f} step {:.2f}  {:7.2f} ms, cheapest {:7.2f} ms\n", view["view"].get<std::string>(),
-               c["asked"].get<double>(), c["reached_rmse_255"].get<double>(), c["detail_share"].get<double>(), c["step"].get<double>(),
-               c.value("time_ms", 0.0), c.contains("cheapest") ? c["cheapest"]["time_ms"].get<double>() : 0.0);
+    fmt::print("{:16} asked {:4} reached {:6.3f}  detail {:.2f} step {:.2f}  {:7.2f} ms, cheapest {:7.2f} ms\n",
+               view["view"].get<std::string>(), c["asked"].get<double>(), c["reached_rmse_255"].get<double>(),
+               c["detail_share"].get<double>(), c["step"].get<double>(), c.value("time_ms", 0.0),
+               c.contains("cheapest") ? c["cheapest"]["time_ms"].get<double>() : 0.0);
 }
 
 }  // namespace
@@ -124,7 +137,8 @@ Result<std::vector<double>> parseTolerances(const std::string& text) {
     char* end = nullptr;
     const std::string one = text.substr(at, comma - at);
     const double value = std::strtod(one.c_str(), &end);
-    if (one.empty() || *end != 0 || !(value >= 0.01 && value <= 255)) return Error{fmt::format("expected errors from 0.01 to 255 such as 0.5,1,2, got {}", text)};
+    if (one.empty() || *end != 0 || !(value >= 0.01 && value <= 255))
+      return Error{fmt::format("expected errors from 0.01 to 255 such as 0.5,1,2, got {}", text)};
     out.push_back(value);
     at = comma + 1;
   }
@@ -150,13 +164,14 @@ Result<void> toleranceSweep(const ToleranceSweepOptions& o) {
   if (!stage) return stage.error();
   measure::ReportContext context = describeRun(start->scene, size);
   describeDevice(*stage->context, context);
-  Json report{{"truth", {{"kind", "gpu"}, {"step", measure::truthMarch({}).step}, {"detail", "all that is resident, as fine as pixels show"}}},
-              {"software", context.software},
-              {"width", size.width},
-              {"height", size.height},
-              {"budget_bytes", start->scene.quality.budget_bytes},
-              {"depth", start->scene.quality.depth},
-              {"views", Json::array()}};
+  Json report{
+      {"truth", {{"kind", "gpu"}, {"step", measure::truthMarch({}).step}, {"detail", "all that is resident, as fine as pixels show"}}},
+      {"software", context.software},
+      {"width", size.width},
+      {"height", size.height},
+      {"budget_bytes", start->scene.quality.budget_bytes},
+      {"depth", start->scene.quality.depth},
+      {"views", Json::array()}};
   Progress progress("tolerance", o.common.quiet);
   for (std::size_t i = 0; i < views.size(); ++i) {
     progress.update(double(i) / double(views.size()), views[i].first);

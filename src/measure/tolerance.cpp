@@ -9,15 +9,15 @@
 namespace welkin::measure {
 namespace {
 
-constexpr double kTruthStep = 0.02;       // a sixteenth of the default step: 0.02 of 255 at the pose near
-constexpr double kMargin = 0.93;          // of the tolerance is aimed at: 6,400 of the pixels know their error to about 5 %
-constexpr std::size_t kPixels = 6400;     // of a picture are tried
-constexpr double kLookUpCost = 2.6;       // samples
+constexpr double kTruthStep = 0.01;    // a quarter of the finest candidate's
+constexpr double kMargin = 0.93;       // of the tolerance is aimed at: 6,400 of the pixels know their error to about 5 %
+constexpr std::size_t kPixels = 6400;  // of a picture are tried
+constexpr double kLookUpCost = 2.6;    // samples
 constexpr int kMostRounds = 3;
-constexpr int kMostChecks = 8;            // candidates that a prediction names and a picture denies
+constexpr int kMostChecks = 8;  // candidates that a prediction names and a picture denies
 
 constexpr std::size_t kDetails = std::size(kDetailShares), kStepCount = std::size(kSteps);
-constexpr std::size_t kFineStep = 0;      // errors of detail alone are measured at this step, those of the step alone at full detail
+constexpr std::size_t kFineStep = 0;  // errors of detail alone are measured at this step, those of the step alone at full detail
 
 // One pixel of each block of n x n, anywhere in it: a regular pattern could fall in with the picture's own.
 std::vector<glm::ivec2> somePixels(int width, int height) {

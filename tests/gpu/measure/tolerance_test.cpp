@@ -1,7 +1,8 @@
 // The error as the input: what is picked keeps it, costs less where more is allowed, and says so where nothing keeps it.
+#include "welkin/measure/tolerance.h"
+
 #include "gl_fixture.h"
 #include "small_earth.h"
-#include "welkin/measure/tolerance.h"
 
 namespace welkin::measure {
 namespace {
