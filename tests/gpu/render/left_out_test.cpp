@@ -1,5 +1,4 @@
 // What a plan leaves out: for every reason there is a scene where it holds, something is saved there, and the picture stays.
-#include <filesystem>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
