@@ -10,7 +10,7 @@ namespace welkin::measure {
 namespace {
 
 constexpr double kTruthStep = 0.01;    // a quarter of the finest candidate's
-constexpr double kMargin = 0.93;       // of the tolerance is aimed at: 6,400 of the pixels know their error to about 5 %
+constexpr double kMargin = 0.93;       // of the tolerance is aimed at: chosen, for the pixels that are not tried; render measures them all
 constexpr std::size_t kPixels = 6400;  // of a picture are tried
 constexpr double kLookUpCost = 2.6;    // samples
 constexpr int kMostRounds = 3;

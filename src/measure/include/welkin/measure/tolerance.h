@@ -23,8 +23,8 @@ inline constexpr double kDetailShares[] = {1, 0.71, 0.5, 0.35, 0.25};
 inline constexpr double kSteps[] = {0.04, 0.055, 0.08, 0.11, 0.16, 0.23, 0.32, 0.45, 0.64, 0.9, 1.3};
 Quality candidate(const Renderer& renderer, const View& view, double detailShare, double step);
 
-// Look-ups and samples of a ray as one number, so that a choice does not depend on the machine's mood: a look-up costs 2.6 samples (least
-// squares over step and detail at the pose near; software GL).
+// Look-ups and samples of a ray as one number, so that a choice does not depend on the machine's mood: a look-up as 2.6 samples (marches of
+// the pose near at several steps: 0.7 ms a sample and 1.8 ms a look-up a ray, 320 x 180, software GL). It orders candidates; it is no time.
 double rayCost(const FrameCounters& counters);
 
 // Needs a settled tree. Draws a regular share of the pixels (all of a small picture) with the truth and with candidates; leaves the
