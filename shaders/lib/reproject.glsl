@@ -74,9 +74,3 @@ History findHistory(ivec2 pixel, vec3 dir, ivec2 size) {
 vec4 historyLight(History h, ivec2 pixel, ivec2 size) {
   return h.still ? texelFetch(u_oldLight, pixel, 0) : catmullRom(u_oldLight, h.at, size);
 }
-
-// A texel as it will be seen: its brightness at the exposure of 0 EV, and half of its transmittance.
-vec2 asSeen(vec4 texel) {
-  float bright = 8.0 * texel.g;
-  return vec2(bright / (1.0 + bright), texel.a * 0.5);
-}

@@ -64,6 +64,9 @@ void addQualityOptions(CLI::App& command, CommonOptions& o) {
                       [&o](StepRule v) { o.stepRule = v; });
   command.add_flag("--march-empty", o.marchEmpty, "march empty nodes like others, for comparisons");
   addParsed<double>(
+      command, "--spread", "how unlike marched pixels may look, 0-255, for those between them to be interpolated; 0: all are marched",
+      [](const std::string& t) { return parseNumber(t, 0, 255); }, [&o](double v) { o.spread = v; });
+  addParsed<double>(
       command, "--detail", "nodes a radian wanted; 0: as fine as the budget allows",
       [](const std::string& t) { return parseNumber(t, 0, 1e6); }, [&o](double v) { o.detail = v; });
   addParsed<std::int64_t>(

@@ -93,6 +93,7 @@ class Convergence {
     t.quality.stepRule = StepRule::Optical;
     t.quality.skipEmpty = true;
     t.quality.detail = 0;
+    t.quality.spread = 0;
     t.quality.step = step;
     t.frames = Frames::Full;
     return t;

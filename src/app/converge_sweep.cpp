@@ -31,6 +31,7 @@ Result<void> set(ConvergeSetting& s, const std::string& axis, const std::string&
   if (axis == "step") return into(q.step, number(text, 1e-6, 1000));
   if (axis == "integrator") return into(q.integrator, findName(kIntegratorNames, text));
   if (axis == "step-rule") return into(q.stepRule, findName(kStepRuleNames, text));
+  if (axis == "spread") return into(q.spread, number(text, 0, 255));
   if (axis == "detail") return into(q.detail, number(text, 0, 1e6));
   if (axis == "frames") return into(s.frames, findName(measure::kFramesNames, text));
   if (axis == "light") return into(s.light, number(text, 0.25, 8));
@@ -62,6 +63,7 @@ std::vector<std::pair<std::string, std::string>> parts(const ConvergeSetting& s,
   differs(q.skipEmpty != b.skipEmpty, "skip-empty", q.skipEmpty ? "empty nodes skipped" : "empty nodes marched");
   differs(q.budget_bytes != b.budget_bytes, "budget", bytesText(q.budget_bytes));
   differs(q.depth != b.depth, "depth", fmt::format("depth {}", q.depth));
+  differs(q.spread != b.spread, "spread", fmt::format("spread {:g}", q.spread));
   differs(q.detail != b.detail, "detail", fmt::format("detail {:g}", q.detail));
   differs(s.frames != base.frames, "frames", fmt::format("one in 16, {}", measure::kFramesNames[std::size_t(s.frames)]));
   differs(s.brickBits != base.brickBits, "brick-bits", fmt::format("{} bits", s.brickBits));

@@ -88,6 +88,7 @@ void apply(const CommonOptions& options, Scene& scene) {
   q.integrator = options.integrator.value_or(q.integrator);
   q.stepRule = options.stepRule.value_or(q.stepRule);
   if (options.marchEmpty) q.skipEmpty = false;
+  q.spread = options.spread.value_or(q.spread);
   q.detail = options.detail.value_or(q.detail);
   q.seed = options.seed.value_or(q.seed);
   scene.output.toneCurve = options.toneCurve.value_or(scene.output.toneCurve);

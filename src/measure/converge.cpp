@@ -54,7 +54,7 @@ std::vector<ObservedOrder> observedOrders(const std::vector<ConvergeRow>& rows, 
     const auto sameButStep = [&](const ConvergeRow* row) {
       const Quality &a = row->setting.quality, &b = points.front()->setting.quality;
       return a.integrator == b.integrator && a.stepRule == b.stepRule && a.budget_bytes == b.budget_bytes && a.depth == b.depth &&
-             a.detail == b.detail && a.skipEmpty == b.skipEmpty && row->setting.frames == Frames::Full;
+             a.detail == b.detail && a.skipEmpty == b.skipEmpty && a.spread == b.spread && row->setting.frames == Frames::Full;
     };
     if (!std::all_of(points.begin(), points.end(), sameButStep)) continue;
     std::stable_sort(points.begin(), points.end(),

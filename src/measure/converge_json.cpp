@@ -20,6 +20,7 @@ Json rowJson(const ConvergeRow& row) {
            {"step_rule", kStepRuleNames[std::size_t(s.quality.stepRule)]},
            {"step", s.quality.step},
            {"skip_empty", s.quality.skipEmpty},
+           {"spread", s.quality.spread},
            {"budget_bytes", s.quality.budget_bytes},
            {"depth", s.quality.depth},
            {"detail", s.quality.detail},

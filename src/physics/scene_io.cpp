@@ -177,7 +177,7 @@ struct Reader {
   }
 
   Quality quality(const JsonPlace& p) const {
-    p.object({"budget", "depth", "integrator", "step_rule", "step", "skip_empty", "detail", "seed"});
+    p.object({"budget", "depth", "integrator", "step_rule", "step", "skip_empty", "spread", "detail", "seed"});
     Quality out;
     if (p.has("budget")) {
       const auto budget = parseBytes(p.at("budget").text(1, 40));
@@ -190,6 +190,7 @@ struct Reader {
     if (p.has("step_rule")) out.stepRule = StepRule(p.at("step_rule").choice(kStepRuleNames));
     if (p.has("skip_empty")) out.skipEmpty = p.at("skip_empty").boolean();
     out.step = p.numberOr("step", out.step, above(0, 1000));
+    out.spread = p.numberOr("spread", out.spread, {0, 255});
     out.detail = p.numberOr("detail", out.detail, {0, 1e6});
     if (p.has("seed")) out.seed = std::uint32_t(p.at("seed").integer(0, 4294967295));
     return out;

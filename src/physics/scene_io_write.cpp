@@ -119,13 +119,14 @@ std::string sceneToJson(const Scene& scene, const fs::path& baseFolder, int inde
     out["clouds"]["combine"] = scene.clouds->combineMax ? "max" : "add";
   }
   for (const auto& [name, view] : scene.views) out["views"][name] = detail::writeView(view);
-  const auto& [budget_bytes, depth, integrator, stepRule, step, skipEmpty, detail, seed] = scene.quality;
+  const auto& [budget_bytes, depth, integrator, stepRule, step, skipEmpty, spread, detail, seed] = scene.quality;
   out["quality"] = {{"budget", bytesExact(budget_bytes)},
                     {"depth", depth},
                     {"integrator", kIntegratorNames[std::size_t(integrator)]},
                     {"step_rule", kStepRuleNames[std::size_t(stepRule)]},
                     {"step", step},
                     {"skip_empty", skipEmpty},
+                    {"spread", spread},
                     {"detail", detail},
                     {"seed", seed}};
   const auto& [exposure_ev, toneCurve, autoExposure] = output;

@@ -109,6 +109,7 @@ struct Renderer::Impl {
   bool shownView(const View& view) const;
   void remember(const View& view, const FrameStats& stats, bool treeChanged);
   double shown_ev(const View& view) const;
+  std::optional<double> seen_ev(const View& view) const;  // the same, where it is known before the picture is drawn
   FrameStats report(FrameStats stats) const;
 };
 
@@ -294,10 +295,13 @@ void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view, std::o
   timer.end();
 }
 
-double Renderer::Impl::shown_ev(const View& view) const {
+double Renderer::Impl::shown_ev(const View& view) const { return seen_ev(view).value_or(exposure ? exposure->reached_ev() : 0); }
+
+std::optional<double> Renderer::Impl::seen_ev(const View& view) const {
   if (view.exposure_ev) return *view.exposure_ev;
   if (scene.output.exposure_ev) return *scene.output.exposure_ev;
-  return exposure ? exposure->reached_ev() : 0;
+  if (exposure && exposure->metered()) return exposure->reached_ev();
+  return {};
 }
 
 FrameStats Renderer::Impl::report(FrameStats stats) const {
@@ -411,7 +415,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
       r.apply(std::move(nothing), frame.position_m, stats);
     }
     r.tree->bind();
-    r.clouds->run(frame, mode, r.scene, r.timer);
+    r.clouds->run(frame, mode, r.scene, r.seen_ev(view), r.timer);
     stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     r.endPicture(frame, view, sinceLast_s);
     r.timer.begin("bricks");
@@ -480,13 +484,13 @@ Result<void> Renderer::setMarch(const Quality& quality) {
   auto& now = impl_->scene.quality;
   impl_->stillFrames = 0, impl_->marchedFrames = 0;
   now.integrator = quality.integrator, now.stepRule = quality.stepRule, now.skipEmpty = quality.skipEmpty;
-  now.step = quality.step, now.detail = quality.detail;
-  return impl_->clouds ? impl_->clouds->use(now) : Result<void>{};
+  now.step = quality.step, now.detail = quality.detail, now.spread = quality.spread;
+  return impl_->clouds ? impl_->clouds->use(impl_->account, now) : Result<void>{};
 }
 
 void Renderer::preview(const View& view) {
   Impl& r = *impl_;
-  r.drawAside(view, [&] { r.clouds->preview(r.scene); });
+  r.drawAside(view, [&] { r.clouds->preview(r.scene, r.seen_ev(view)); });
 }
 
 Result<FrameCounters> Renderer::preview(const View& view, std::span<const glm::ivec2> pixels) {

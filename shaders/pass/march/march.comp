@@ -1,4 +1,4 @@
-// Marches the clouds of a set of pixels: all of them, one in 16, or a list of those whose history is not valid.
+// Marches the clouds of a set of pixels: all of them or every second or fourth of a row and column, one in 16 of a frame, or those of a list.
 #include "lib/cloud_march.glsl"
 #include "lib/shadow.glsl"
 #include "welkin/shared/counters.glsl.h"
@@ -40,6 +40,7 @@ layout(std430, binding = WK_PIXELS_BINDING) readonly buffer GivenClouds { CloudW
 #endif
 uniform ivec2 u_size;
 uniform ivec2 u_offset;   // which pixel of each 4 x 4
+uniform int u_spacing;    // of PIXELS_ALL
 uniform vec3 u_sunIrradiance;
 uniform float u_groundAlbedo;
 
@@ -81,6 +82,8 @@ void main() {
 #elif PIXELS == PIXELS_SIXTEENTH
   ivec2 pixel = tilePixel() * 4 + u_offset;
   if (any(greaterThanEqual(pixel, u_size))) imageStore(u_change, pixel / 4, vec4(0.0));  // a tile cut by the border; beyond the image nothing is stored
+#elif PIXELS == PIXELS_ALL
+  ivec2 pixel = tilePixel() * u_spacing;
 #else
   ivec2 pixel = tilePixel();
 #endif

@@ -1,5 +1,6 @@
 // Fills the pixels that this frame's sixteenth does not march from the last frame's clouds, moved by their own distance and the camera's
 // motion, and corrected by what the marched pixels around have changed. Pixels without valid history go to a list that is marched at once.
+#include "lib/as_seen.glsl"
 #include "lib/reproject.glsl"
 #include "welkin/shared/counters.glsl.h"
 
@@ -27,7 +28,7 @@ const float kLeastAge = 3.0;
 
 // How far interpolation may be off here: contrast of the four texels around, as it will be seen, times the distance from the nearest.
 // A pixel is resampled up to 15 times until it is marched again, so little is much.
-vec2 seenAt(ivec2 at) { return asSeen(texelFetch(u_oldLight, clamp(at, ivec2(0), u_size - 1), 0)); }
+vec2 seenAt(ivec2 at) { return asSeen(texelFetch(u_oldLight, clamp(at, ivec2(0), u_size - 1), 0), 1.0); }
 float resampleError(vec2 at) {
   ivec2 base = ivec2(floor(at - 0.5));
   vec2 a = seenAt(base), b = seenAt(base + ivec2(1, 0)), c = seenAt(base + ivec2(0, 1)), d = seenAt(base + ivec2(1, 1));
@@ -57,7 +58,7 @@ void main() {
   if (moving) {
     vec4 change = textureLod(u_change, (vec2(pixel - u_offset) * 0.25 + 0.5) / vec2(textureSize(u_change, 0)), 0.0);
     vec4 changed = vec4(max(light.rgb + change.rgb, vec3(0.0)), clamp(light.a + change.a, 0.0, 1.0));
-    vec2 difference = abs(asSeen(changed) - asSeen(light));
+    vec2 difference = abs(asSeen(changed, 1.0) - asSeen(light, 1.0));
     if (max(difference.x, difference.y) > kGreatChange) valid = false;
     light = changed;
   }

@@ -15,6 +15,7 @@ shared::dvec4 pack(glm::dvec3 v, double w) { return {v.x, v.y, v.z, w}; }
 unsigned groups(int pixels, int size) { return static_cast<unsigned>((pixels + size - 1) / size); }
 
 constexpr double kLeastEye_m = 0.001;
+constexpr int kSpacing = 4;  // of the pixels that are marched first, where others are spread between them
 
 // What a quality defines for the march.
 gpu::Defines rulesOf(const Quality& quality) {
@@ -68,19 +69,40 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
   passes.defines_ = tree.defines();
   passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)},
                                                  {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
-  if (auto used = passes.use(quality); !used) return used.error();
+  if (auto used = passes.use(account, quality); !used) return used.error();
   if (!plan.history) return passes;
   if (auto r = target(passes.change_, {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4}); !r) return r.error();
-  auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width) * std::size_t(height) * 4, GL_DYNAMIC_STORAGE_BIT, true);
-  if (!pixels) return pixels.error();
-  passes.pixels_ = std::move(*pixels);
+  if (auto made = passes.createList(account); !made) return made.error();
   auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
   if (!reproject) return reproject.error();
   passes.reproject_ = std::move(*reproject);
   return passes;
 }
 
-Result<void> CloudPasses::use(const Quality& quality) {
+Result<void> CloudPasses::createList(gpu::MemoryAccount& account) {
+  if (pixels_.id()) return {};
+  auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width_) * std::size_t(height_) * 4, GL_DYNAMIC_STORAGE_BIT, true);
+  if (!pixels) return pixels.error();
+  pixels_ = std::move(*pixels);
+  return {};
+}
+
+Result<void> CloudPasses::use(gpu::MemoryAccount& account, const Quality& quality) {
+  if (auto used = useRules(quality); !used || quality.spread <= 0) return used;
+  if (auto made = createList(account); !made) return made;
+  if (!march_->list.valid()) {
+    auto list = compile(quality, PixelSet::List);
+    if (!list) return list.error();
+    march_->list = std::move(*list);
+  }
+  if (spread_.valid()) return {};
+  auto spread = gpu::Program::compute("pass/spread/spread.comp", {{"OPT_AUX", aux_[0].id() ? "1" : "0"}, {"OPT_HISTORY", history_ ? "1" : "0"}});
+  if (!spread) return spread.error();
+  spread_ = std::move(*spread);
+  return {};
+}
+
+Result<void> CloudPasses::useRules(const Quality& quality) {
   const gpu::Defines rules = rulesOf(quality);
   std::string key;
   for (const auto& [name, value] : rules) key += value + " ";
@@ -102,9 +124,44 @@ Result<void> CloudPasses::use(const Quality& quality) {
 void CloudPasses::march(const gpu::Program& program, glm::ivec2 offset, int target) const {
   program.set("u_size", glm::ivec2(width_, height_));
   program.set("u_offset", offset);
+  program.set("u_spacing", 1);
   light_[target].bindImage(0, GL_WRITE_ONLY);
   if (aux_[target].id()) aux_[target].bindImage(1, GL_WRITE_ONLY);
   if (history_) age_[target].bindImage(3, GL_WRITE_ONLY);
+}
+
+void CloudPasses::marchList(int target) const {
+  march(march_->list, {0, 0}, target);
+  march_->list.use();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pixels_.id());
+  glDispatchComputeIndirect(0);
+}
+
+void CloudPasses::clearList() const {
+  const std::uint32_t head[4] = {0, 1, 1, 0};
+  pixels_.upload(0, std::as_bytes(std::span(head)));
+  pixels_.bind(GL_SHADER_STORAGE_BUFFER, WK_PIXELS_BINDING);
+}
+
+void CloudPasses::marchWhole(const Scene& scene, std::optional<double> seen_ev, int target) const {
+  const int first = scene.quality.spread > 0 && seen_ev ? kSpacing : 1;
+  march(march_->all, {0, 0}, target);
+  march_->all.set("u_spacing", first);
+  march_->all.dispatch(groups(width_, 8 * first), groups(height_, 8 * first));
+  for (int spacing = first; spacing > 1; spacing /= 2) {
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    clearList();
+    light_[target].bindImage(0, GL_READ_WRITE);
+    if (aux_[target].id()) aux_[target].bindImage(1, GL_READ_WRITE);
+    if (history_) age_[target].bindImage(3, GL_WRITE_ONLY);
+    spread_.set("u_size", glm::ivec2(width_, height_));
+    spread_.set("u_spacing", spacing);
+    spread_.set("u_exposure", float(std::exp2(*seen_ev)));
+    spread_.set("u_spread", float(scene.quality.spread / 255));
+    spread_.dispatch(groups(width_, 8 * spacing), groups(height_, 8 * spacing));
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    marchList(target);
+  }
 }
 
 void CloudPasses::setLight(const gpu::Program& program, const Scene& scene) const {
@@ -126,7 +183,12 @@ void CloudPasses::show(int target) const {
   if (aux_[target].id()) aux_[target].bind(WK_CLOUD_AUX_UNIT);
 }
 
-void CloudPasses::preview(const Scene& scene) { marchSpare(march_->all, scene, groups(width_, 8), groups(height_, 8)); }
+void CloudPasses::preview(const Scene& scene, std::optional<double> seen_ev) {
+  for (const gpu::Program* p : {&march_->all, &march_->list})
+    if (p->valid()) setLight(*p, scene);
+  marchWhole(scene, seen_ev, spare());
+  showSpare();
+}
 
 Result<void> CloudPasses::preview(gpu::MemoryAccount& account, const Scene& scene, std::span<const glm::ivec2> pixels) {
   if (!march_->list.valid()) {  // a single picture has none
@@ -168,22 +230,24 @@ Result<void> CloudPasses::show(gpu::MemoryAccount& account, const Scene& scene, 
 
 void CloudPasses::marchSpare(const gpu::Program& program, const Scene& scene, unsigned groupsX, unsigned groupsY) const {
   setLight(program, scene);
-  const int spare = history_ ? 1 - current_ : 0;  // the next run() writes every pixel of it
-  march(program, {0, 0}, spare);
+  march(program, {0, 0}, spare());
   program.dispatch(groupsX, groupsY);
-  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-  show(spare);
+  showSpare();
 }
 
-void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer) {
+void CloudPasses::showSpare() const {
+  glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+  show(spare());
+}
+
+void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, std::optional<double> seen_ev, gpu::PassTimer& timer) {
   for (const gpu::Program* p : {&march_->all, &march_->sixteenth, &march_->list})
     if (p->valid()) setLight(*p, scene);
   const int old = current_;
   current_ = history_ ? 1 - current_ : 0;
   if (mode == FrameMode::Full || !haveHistory_ || !history_) {
     timer.begin("march");
-    march(march_->all, {0, 0}, current_);
-    march_->all.dispatch(groups(width_, 8), groups(height_, 8));
+    marchWhole(scene, seen_ev, current_);
     timer.end();
   } else {
     const glm::ivec2 offset{kOrder[phase_ % 16][0], kOrder[phase_ % 16][1]};
@@ -198,9 +262,7 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     timer.end();
     timer.begin("reproject");
-    const std::uint32_t head[4] = {0, 1, 1, 0};
-    pixels_.upload(0, std::as_bytes(std::span(head)));
-    pixels_.bind(GL_SHADER_STORAGE_BUFFER, WK_PIXELS_BINDING);
+    clearList();
     change_.bind(WK_CLOUD_CHANGE_UNIT);
     reproject_.set("u_size", glm::ivec2(width_, height_));
     reproject_.set("u_offset", offset);
@@ -213,10 +275,7 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     timer.end();
     timer.begin("march");
-    march(march_->list, offset, current_);
-    march_->list.use();
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, pixels_.id());
-    glDispatchComputeIndirect(0);
+    marchList(current_);
     timer.end();
   }
   glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

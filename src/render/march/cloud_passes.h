@@ -1,6 +1,7 @@
 #pragma once
 // The march and the reprojection: clouds of every pixel, of which one in 16 is marched a frame and the rest is moved from the last.
 #include <map>
+#include <optional>
 #include <string>
 
 #include "render/tree/resident_tree.h"
@@ -23,11 +24,12 @@ class CloudPasses {
  public:
   static Result<CloudPasses> create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan,
                                     const Quality& quality);
-  Result<void> use(const Quality& quality);  // its integrator, step rule and skipEmpty; compiled once each
+  Result<void> use(gpu::MemoryAccount& account, const Quality& quality);  // its integrator, step rule and skipEmpty, compiled once each, and spread
   // Expects tree, camera, counters and sky bound. Leaves the new clouds bound at WK_CLOUD_LIGHT_UNIT and (if read) WK_CLOUD_AUX_UNIT.
-  void run(const ViewFrame& view, FrameMode mode, const Scene& scene, gpu::PassTimer& timer);
-  // Marches every pixel into the spare target, which is bound as the new clouds; history stays as it is.
-  void preview(const Scene& scene);
+  // `seen_ev`: exposure that the picture will be seen at, if that is known; without it no pixel is spread.
+  void run(const ViewFrame& view, FrameMode mode, const Scene& scene, std::optional<double> seen_ev, gpu::PassTimer& timer);
+  // Marches the whole picture into the spare target, which is bound as the new clouds; history stays as it is.
+  void preview(const Scene& scene, std::optional<double> seen_ev);
   Result<void> preview(gpu::MemoryAccount& account, const Scene& scene, std::span<const glm::ivec2> pixels);  // of these pixels only
   // The same with what each pixel's ray brings given, rows from the top, instead of marched.
   Result<void> show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds);
@@ -35,8 +37,15 @@ class CloudPasses {
 
  private:
   void march(const gpu::Program& program, glm::ivec2 offset, int target) const;
+  void marchWhole(const Scene& scene, std::optional<double> seen_ev, int target) const;  // every pixel, or as scene.quality.spread has it
+  void marchList(int target) const;
+  void clearList() const;
+  void showSpare() const;
+  Result<void> useRules(const Quality& quality);
   enum class PixelSet { All, Sixteenth, List, Given };  // PIXELS of march.comp
   Result<gpu::Program> compile(const Quality& quality, PixelSet pixels) const;
+  Result<void> createList(gpu::MemoryAccount& account);
+  int spare() const { return history_ ? 1 - current_ : 0; }  // the next run() writes every pixel of it
   void marchSpare(const gpu::Program& program, const Scene& scene, unsigned groupsX, unsigned groupsY) const;
   void setLight(const gpu::Program& program, const Scene& scene) const;
   void show(int target) const;  // to whom puts the picture together
@@ -54,7 +63,7 @@ class CloudPasses {
   gpu::Defines defines_;              // of all marches
   std::map<std::string, Programs> marches_;  // by what their quality defines
   Programs* march_ = nullptr;   // the one in use
-  gpu::Program reproject_, given_;    // given: made when it is first asked for
+  gpu::Program reproject_, given_, spread_;    // given, spread: made when they are first asked for
 };
 
 }  // namespace welkin

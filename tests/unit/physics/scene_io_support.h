@@ -30,7 +30,7 @@ inline const std::string kFullScene = R"({
     "ground": {"latitude_deg": 47.5, "longitude_deg": 8.5, "altitude_m": 2, "heading_deg": 250, "pitch_deg": 12, "roll_deg": 3, "fov_deg": 60,
                "exposure_ev": 3},
     "space": {"position_m": [14000000, 0, 0], "orientation_xyzw": [0.5, 0.5, 0.5, 0.5], "fov_deg": 40}},
-  "quality": {"budget": "128MiB", "depth": 12, "integrator": "simpson-3/8", "step_rule": "pixel", "step": 0.4, "skip_empty": false, "detail": 300, "seed": 7},
+  "quality": {"budget": "128MiB", "depth": 12, "integrator": "simpson-3/8", "step_rule": "pixel", "step": 0.4, "skip_empty": false, "spread": 12.5, "detail": 300, "seed": 7},
   "output": {"exposure_ev": 1.5, "tone_curve": "lottes", "auto_exposure": {"compensation_ev": -0.5, "adapt_to_bright_s": 0.3,
     "adapt_to_dark_s": 2, "low_percentile": 20, "high_percentile": 90, "min_ev": -3, "max_ev": 9}}
 }

@@ -19,8 +19,8 @@ struct SweepAxis {
   std::string name;
   std::vector<std::string> values;
 };
-inline constexpr std::array<const char*, 10> kSweepAxes{"step",   "integrator", "step-rule",  "budget", "depth",
-                                                        "detail", "frames",     "brick-bits", "light",  "skip-empty"};
+inline constexpr std::array<const char*, 11> kSweepAxes{"step",   "integrator", "step-rule", "spread",     "budget", "depth",
+                                                        "detail", "frames",     "brick-bits", "light",      "skip-empty"};
 Result<SweepAxis> parseSweep(const std::string& text);  // "step=0.1,0.2"; every value is read, so that wrong ones show at once
 
 // Every combination of the axes' values, the first axis slowest; what no axis names is the base's. Settings of one series differ in the

@@ -51,8 +51,8 @@ struct CommonOptions {
   std::optional<Integrator> integrator;
   std::optional<StepRule> stepRule;
   bool marchEmpty = false;
-  std::optional<double> tolerance_255;  // in place of step and detail: error of the picture, RMSE on 0..255 (measure/tolerance.h)
-  std::optional<double> step, detail;
+  std::optional<double> tolerance_255;  // in place of step, spread and detail: error of the picture, RMSE on 0..255 (measure/tolerance.h)
+  std::optional<double> step, spread, detail;
   std::optional<std::uint32_t> seed;
   std::optional<Exposure> exposure;  // in place of the scene's and of every view's
   std::optional<ToneCurve> toneCurve;

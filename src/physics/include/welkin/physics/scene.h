@@ -97,6 +97,7 @@ struct Quality {
   StepRule stepRule = StepRule::Optical;
   double step = 0.32;       // length of a march segment, in units of its rule
   bool skipEmpty = true;    // false: empty nodes are marched like others; for comparisons
+  double spread = 0;        // how unlike marched neighbours may look, 0-255, for pixels between them to be interpolated; 0: every pixel is marched
   double detail = 0;        // node size over distance wanted (nodes a radian); 0: as fine as the budget allows
   std::uint32_t seed = 1;
 };

@@ -10,16 +10,17 @@ WK_CONST uint kStepPixel = 3u;      // by the size of the node that a pixel can 
 WK_CONST uint kStepNode = 4u;       // step times half the node's size
 WK_CONST uint kStepRules = 5u;
 
-// The optical rule's constants, found by measurement (docs/decisions/0014). A segment may be so deep at the node's greatest density, in steps: density
-// varies along thin segments as along thick ones, and thin ones do not saturate. Behind cloud that hides most, errors hide too.
-WK_CONST float kDepthShare = F(.73);
+// The optical rule's constants, found by measurement (docs/decisions/0014). What a thin brick may err falls with its depth, and by a power of its
+// segments: the same number of samples errs least in all if a brick of depth x gets a power of x under 1, here its cube root. Behind cloud that
+// hides most, errors hide too.
+WK_CONST float kThinCount = F(1.6);
 WK_CONST float kLeastCount = F(0.05);
 // Clouds lie in layers: along rays that go up or down density changes faster than along level ones.
-WK_CONST float kLevelCount = F(.19);
-WK_CONST float kUprightCount = F(2.08);
+WK_CONST float kLevelCount = F(.32);
+WK_CONST float kUprightCount = F(1.9);
 // Where nodes are coarser than pixels show (the budget ends, or the depth), a segment's error covers many pixels and is seen: finer there.
 WK_CONST float kCoarseShare = F(.17);
-WK_CONST float kCoarseMost = F(2.15);
+WK_CONST float kCoarseMost = F(1.25);
 
 struct StepPlace {
   float span_m;         // way through the brick
@@ -44,7 +45,7 @@ WK_FN float segmentCount(uint rule, float step, StepPlace p) {
     // where a level fades out into its parent, segments grow to the parent's, twice as long
     float halves = p.halves * mix(kLevelCount, kUprightCount, p.upright) * (F(1.0) - F(0.5) * p.parentWeight);
     float coarse = clamp(kCoarseShare * p.nodeHalf_m / p.pixelHalf_m, F(1.0), kCoarseMost);
-    count = min(halves, p.bound / kDepthShare) * coarse * mix(kLeastCount, F(1.0), p.transmittance);
+    count = min(halves, kThinCount * pow(p.bound, F(0.33333333))) * coarse * mix(kLeastCount, F(1.0), p.transmittance);
   }
   return max(ceil(count / step), F(1.0));
 }

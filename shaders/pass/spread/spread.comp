@@ -1,0 +1,73 @@
+// Between marched pixels, `u_spacing` apart: what lies halfway is put between them where they look alike, and else goes to a list that is marched.
+#include "lib/as_seen.glsl"
+#include "welkin/shared/bindings.glsl.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std430, binding = WK_PIXELS_BINDING) buffer PixelList { uint groups, one, one_, count, pixels[]; };
+layout(rgba16f, binding = 0) uniform image2D u_light;
+#if OPT_AUX
+layout(rg32f, binding = 1) uniform image2D u_aux;
+#endif
+#if OPT_HISTORY
+layout(r8ui, binding = 3) uniform writeonly uimage2D u_age;
+#endif
+uniform ivec2 u_size;
+uniform int u_spacing;
+uniform float u_exposure;  // times the base exposure
+uniform float u_spread;    // of 1, as seen
+
+struct Marched { vec4 light; vec2 aux; vec2 seen; };
+
+Marched marched(ivec2 at) {
+  at = min(at, (u_size - 1) / u_spacing * u_spacing);  // past the border nothing is between: its own neighbour stands in
+  vec4 light = imageLoad(u_light, at);
+  vec2 aux = vec2(0.0, 1.0);
+#if OPT_AUX
+  aux = imageLoad(u_aux, at).xy;
+#endif
+  return Marched(light, aux, asSeen(light, u_exposure));
+}
+
+// Halfway. A distance counts as much as there is of what is there.
+Marched halfway(Marched a, Marched b) {
+  vec2 opacity = vec2(1.0 - a.light.a, 1.0 - b.light.a);
+  float all = opacity.x + opacity.y, share = all > 0.0 ? opacity.y / all : 0.5;
+  return Marched(0.5 * (a.light + b.light), vec2(mix(a.aux.x, b.aux.x, share), 0.5 * (a.aux.y + b.aux.y)), vec2(0.0));
+}
+
+// How unlike they look: in brightness, in transmittance, in the shadow on what lies behind.
+float apart(vec2 low, vec2 high, vec2 shadow) {
+  vec2 d = high - low;
+  return max(max(d.x, d.y), 0.5 * abs(shadow.y - shadow.x));
+}
+
+void put(ivec2 pixel, Marched value, float unlike, bool inside) {
+  if (any(greaterThanEqual(pixel, u_size))) return;
+  if (!inside || !(unlike <= u_spread)) {  // a NaN is marched, and counted there
+    uint slot = atomicAdd(count, 1u);
+    pixels[slot] = uint(pixel.x) | (uint(pixel.y) << 16u);
+    if ((slot & 63u) == 0u) atomicAdd(groups, 1u);
+    return;
+  }
+  imageStore(u_light, pixel, value.light);
+#if OPT_AUX
+  imageStore(u_aux, pixel, vec4(value.aux, 0.0, 0.0));
+#endif
+#if OPT_HISTORY
+  imageStore(u_age, pixel, uvec4(0u));
+#endif
+}
+
+void main() {
+  ivec2 at = ivec2(gl_GlobalInvocationID.xy) * u_spacing;
+  if (any(greaterThanEqual(at, u_size))) return;
+  int whole = u_spacing, half_ = u_spacing / 2;
+  Marched a = marched(at), b = marched(at + ivec2(whole, 0)), c = marched(at + ivec2(0, whole)), d = marched(at + whole);
+  bool right = at.x + whole < u_size.x, below = at.y + whole < u_size.y;
+  vec2 shadows = vec2(min(min(a.aux.y, b.aux.y), min(c.aux.y, d.aux.y)), max(max(a.aux.y, b.aux.y), max(c.aux.y, d.aux.y)));
+  float all = apart(min(min(a.seen, b.seen), min(c.seen, d.seen)), max(max(a.seen, b.seen), max(c.seen, d.seen)), shadows);
+  Marched top = halfway(a, b), left = halfway(a, c);
+  put(at + ivec2(half_, 0), top, apart(min(a.seen, b.seen), max(a.seen, b.seen), vec2(a.aux.y, b.aux.y)), right);
+  put(at + ivec2(0, half_), left, apart(min(a.seen, c.seen), max(a.seen, c.seen), vec2(a.aux.y, c.aux.y)), below);
+  put(at + half_, halfway(top, halfway(c, d)), all, right && below);
+}
