@@ -64,7 +64,8 @@ class ViewSweep {
     const auto truth = measure::drawTruth(renderer_, view_);
     if (!truth) return truth.error();
     for (const double share : measure::kDetailShares)
-      for (const double step : measure::kSteps)
+      for (const double step : measure::kSteps) {
+        const std::size_t before = settings_.size();
         for (const double spread : measure::kSpreads) {
           Setting s{share, step, spread};
           const auto error = measure::reachedError(renderer_, view_, exposure_ev_, *truth, march(s));
@@ -73,6 +74,8 @@ class ViewSweep {
           if (s.rmse_255 > greatest) break;  // more spread errs more
           settings_.push_back(std::move(s));
         }
+        if (settings_.size() == before) break;  // so does a longer step
+      }
     for (int turn = 0; turn < options_.repetitions; ++turn)
       for (Setting& s : settings_) {
         if (stopRequested()) return Error{"stopped before the sweep was whole"};

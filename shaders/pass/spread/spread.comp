@@ -34,15 +34,16 @@ Marched halfway(Marched a, Marched b) {
   return Marched(0.5 * (a.light + b.light), vec2(mix(a.aux.x, b.aux.x, share), 0.5 * (a.aux.y + b.aux.y)), vec2(0.0));
 }
 
-// How unlike they look: in brightness, in transmittance, in the shadow on what lies behind.
-float apart(vec2 low, vec2 high, vec2 shadow) {
-  vec2 d = high - low;
-  return max(max(d.x, d.y), 0.5 * abs(shadow.y - shadow.x));
+// How unlike four look: in brightness, in transmittance, in the shadow on what lies behind.
+float apart(Marched a, Marched b, Marched c, Marched d) {
+  vec2 seen = max(max(a.seen, b.seen), max(c.seen, d.seen)) - min(min(a.seen, b.seen), min(c.seen, d.seen));
+  float shadow = max(max(a.aux.y, b.aux.y), max(c.aux.y, d.aux.y)) - min(min(a.aux.y, b.aux.y), min(c.aux.y, d.aux.y));
+  return max(max(seen.x, seen.y), 0.5 * shadow);
 }
 
-void put(ivec2 pixel, Marched value, float unlike, bool inside) {
+void put(ivec2 pixel, Marched value, bool alike) {
   if (any(greaterThanEqual(pixel, u_size))) return;
-  if (!inside || !(unlike <= u_spread)) {  // a NaN is marched, and counted there
+  if (!alike) {
     listPixel(pixel);
     return;
   }
@@ -59,12 +60,11 @@ void between(ivec2 at) {
   int whole = u_spacing, half_ = u_spacing / 2;
   Marched a = marched(at), b = marched(at + ivec2(whole, 0)), c = marched(at + ivec2(0, whole)), d = marched(at + whole);
   bool right = at.x + whole < u_size.x, below = at.y + whole < u_size.y;
-  vec2 shadows = vec2(min(min(a.aux.y, b.aux.y), min(c.aux.y, d.aux.y)), max(max(a.aux.y, b.aux.y), max(c.aux.y, d.aux.y)));
-  float all = apart(min(min(a.seen, b.seen), min(c.seen, d.seen)), max(max(a.seen, b.seen), max(c.seen, d.seen)), shadows);
-  Marched top = halfway(a, b), left = halfway(a, c);
-  put(at + ivec2(half_, 0), top, apart(min(a.seen, b.seen), max(a.seen, b.seen), vec2(a.aux.y, b.aux.y)), right);
-  put(at + ivec2(0, half_), left, apart(min(a.seen, c.seen), max(a.seen, c.seen), vec2(a.aux.y, c.aux.y)), below);
-  put(at + half_, halfway(top, halfway(c, d)), all, right && below);
+  bool alike = apart(a, b, c, d) <= u_spread;  // a NaN is like nothing: it is marched, and counted there
+  Marched top = halfway(a, b);
+  put(at + ivec2(half_, 0), top, alike && right);
+  put(at + ivec2(0, half_), halfway(a, c), alike && below);
+  put(at + half_, halfway(top, halfway(c, d)), alike && right && below);
 }
 
 void main() {
