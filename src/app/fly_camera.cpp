@@ -9,10 +9,10 @@
 namespace welkin::app {
 namespace {
 
-constexpr double kPiece_s = 1.0 / 64;     // a sixteenth of kDriveTime_s: the quadrature's error is below 1e-10 of the way
-constexpr double kLongest_s = 60;         // of a frame: after a suspended machine one is not on the other side of the planet
-constexpr double kFarthest_m = 1e12;      // from the centre, as in scene files
-constexpr double kStill = 1e-9;           // of full speed: standing
+constexpr double kPiece_s = 1.0 / 64;  // a sixteenth of kDriveTime_s: the quadrature's error is below 1e-10 of the way
+constexpr double kLongest_s = 60;      // of a frame: after a suspended machine one is not on the other side of the planet
+constexpr double kFarthest_m = 1e12;   // from the centre, as in scene files
+constexpr double kStill = 1e-9;        // of full speed: standing
 constexpr double kUpright_rad = std::numbers::pi / 2;
 
 double number(double v, double low, double high) { return std::isfinite(v) ? std::clamp(v, low, high) : 0; }
@@ -77,14 +77,15 @@ const View& FlyCamera::advance(const FlyInput& raw, double dt_s) {
 void FlyCamera::turn(const FlyInput& input) {
   const glm::dvec2 a = input.turn_rad;
   if (!input.level) {
-    view_.orientation = glm::normalize(view_.orientation * glm::angleAxis(-a.x, glm::dvec3(0, 1, 0)) * glm::angleAxis(a.y, glm::dvec3(1, 0, 0)));
+    view_.orientation =
+        glm::normalize(view_.orientation * glm::angleAxis(-a.x, glm::dvec3(0, 1, 0)) * glm::angleAxis(a.y, glm::dvec3(1, 0, 0)));
     return;
   }
   // Around the zenith, and up no farther than the zenith.
   const glm::dvec3 zenith = up(), forward = forwardOf(view_), top = view_.orientation * glm::dvec3(0, 1, 0);
   const double pitch = std::asin(std::clamp(glm::dot(forward, zenith), -1.0, 1.0));
   const double low = -kUpright_rad - pitch, high = kUpright_rad - pitch;
-  const bool upright = glm::dot(top, zenith) >= 0;
+  const bool upright = glm::dot(top, zenith) > -1e-6;  // at the zenith its sign is rounding
   const double rise = upright ? std::clamp(a.y, low, high) : std::clamp(a.y, -high, -low);
   view_.orientation = glm::normalize(glm::angleAxis(-a.x, zenith) * view_.orientation * glm::angleAxis(rise, glm::dvec3(1, 0, 0)));
 }

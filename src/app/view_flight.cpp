@@ -6,8 +6,8 @@
 namespace welkin::app {
 namespace {
 
-constexpr double kRho2 = 0.64;          // rho^2 of the paper: how high one flies. A long way peaks at rho^2 / 2 of its length
-constexpr double kGroundWidth_m = 30;   // width at the ground: there one does not creep
+constexpr double kRho2 = 0.64;         // rho^2 of the paper: how high one flies. A long way peaks at rho^2 / 2 of its length
+constexpr double kGroundWidth_m = 30;  // width at the ground: there one does not creep
 constexpr double kLeast_s = 0.6, kPath_s = 0.45, kTurn_s_rad = 0.5;  // durations that look unhurried
 
 // Velocity and acceleration are 0 at both ends.

@@ -13,6 +13,11 @@ namespace {
 
 constexpr double kEarth_m = 6'360'000, kRad = std::numbers::pi / 180;
 
+GeographicView geographic(double latitude_deg, double longitude_deg, double altitude_m = 2, double heading_deg = 0, double pitch_deg = 0,
+                          double roll_deg = 0, double fov_deg = 58) {
+  return {latitude_deg, longitude_deg, altitude_m, heading_deg, pitch_deg, roll_deg, fov_deg, {}};
+}
+
 double between(test::Random32& random, double low, double high) { return low + (high - low) * (random() / 4294967296.0); }
 
 glm::dquat anyOrientation(test::Random32& random) {
@@ -32,7 +37,7 @@ View anyView(test::Random32& random, double least_m = 2, double most_m = 1e8) {
 
 FlyCamera cameraAt(double altitude_m, double pitch_deg = 0, double heading_deg = 30) {
   FlyCamera camera(kEarth_m);
-  EXPECT_TRUE(camera.setView(toView({.latitude_deg = 47, .longitude_deg = 8, .altitude_m = altitude_m, .heading_deg = heading_deg, .pitch_deg = pitch_deg}, kEarth_m)));
+  EXPECT_TRUE(camera.setView(toView(geographic(47, 8, altitude_m, heading_deg, pitch_deg), kEarth_m)));
   return camera;
 }
 
@@ -163,7 +168,7 @@ TEST(FlyCamera, PolesCentreAndFarAway) {
     for (const bool level : {false, true}) {
       View view;
       view.position_m = p;
-      view.orientation = toView({.latitude_deg = 90, .longitude_deg = 40, .pitch_deg = -90}, kEarth_m).orientation;
+      view.orientation = toView(geographic(90, 40, 2, 0, -90), kEarth_m).orientation;
       ASSERT_TRUE(camera.setView(view));
       for (int i = 0; i < 200; ++i) {
         camera.advance({.move = {0.3, -0.2, -1}, .turn_rad = {0.01, -0.01}, .roll = 0.2, .level = level}, 1.0 / 60);
@@ -196,7 +201,7 @@ TEST(FlyCamera, AGivenViewStaysToTheBitUntilSomeoneSteers) {
 
 TEST(FlyCamera, RollComesUpright) {
   FlyCamera camera(kEarth_m);
-  ASSERT_TRUE(camera.setView(toView({.altitude_m = 5000, .pitch_deg = -20, .roll_deg = 170}, kEarth_m)));
+  ASSERT_TRUE(camera.setView(toView(geographic(0, 0, 5000, 0, -20, 170), kEarth_m)));
   camera.advance({.turn_rad = {0.001, 0}}, 1e-6);
   for (int i = 0; i < 600; ++i) camera.advance({}, 1.0 / 60);
   const auto g = toGeographic(camera.view(), kEarth_m);

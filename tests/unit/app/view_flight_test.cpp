@@ -13,16 +13,18 @@ namespace {
 
 constexpr double kEarth_m = 6'360'000;
 
+GeographicView geographic(double latitude_deg, double longitude_deg, double altitude_m = 2, double heading_deg = 0, double pitch_deg = 0,
+                          double roll_deg = 0, double fov_deg = 58) {
+  return {latitude_deg, longitude_deg, altitude_m, heading_deg, pitch_deg, roll_deg, fov_deg, {}};
+}
+
 double between(test::Random32& random, double low, double high) { return low + (high - low) * (random() / 4294967296.0); }
 
 View anyView(test::Random32& random) {
-  const GeographicView g{.latitude_deg = between(random, -90, 90),
-                         .longitude_deg = between(random, -180, 180),
-                         .altitude_m = std::exp(between(random, std::log(2.0), std::log(1e10))),
-                         .heading_deg = between(random, 0, 360),
-                         .pitch_deg = between(random, -90, 90),
-                         .roll_deg = between(random, -180, 180),
-                         .fov_deg = between(random, 1, 120)};
+  const double latitude_deg = between(random, -90, 90), longitude_deg = between(random, -180, 180);
+  const double altitude_m = std::exp(between(random, std::log(2.0), std::log(1e10)));
+  const double heading_deg = between(random, 0, 360), pitch_deg = between(random, -90, 90), roll_deg = between(random, -180, 180);
+  const GeographicView g = geographic(latitude_deg, longitude_deg, altitude_m, heading_deg, pitch_deg, roll_deg, between(random, 1, 120));
   return toView(g, kEarth_m);
 }
 
@@ -61,12 +63,12 @@ TEST(ViewFlight, AnyTwoViews) {
 }
 
 TEST(ViewFlight, SpecialPairs) {
-  const View zurich = toView({.latitude_deg = 47.4, .longitude_deg = 8.5, .altitude_m = 2}, kEarth_m);
-  const View above = toView({.latitude_deg = 47.4, .longitude_deg = 8.5, .altitude_m = 4e5}, kEarth_m);
-  const View besides = toView({.latitude_deg = 47.4, .longitude_deg = 8.5 + 1e-9, .altitude_m = 2}, kEarth_m);
+  const View zurich = toView(geographic(47.4, 8.5, 2), kEarth_m);
+  const View above = toView(geographic(47.4, 8.5, 4e5), kEarth_m);
+  const View besides = toView(geographic(47.4, 8.5 + 1e-9, 2), kEarth_m);
   View opposite = zurich;
   opposite.position_m = -opposite.position_m;
-  const View north = toView({.latitude_deg = 90, .altitude_m = 1000}, kEarth_m), south = toView({.latitude_deg = -90, .altitude_m = 1e10}, kEarth_m);
+  const View north = toView(geographic(90, 0, 1000), kEarth_m), south = toView(geographic(-90, 0, 1e10), kEarth_m);
   View negative = zurich;
   negative.orientation = -negative.orientation;  // the same orientation
   expectGoodFlight(zurich, zurich, "same");
@@ -80,8 +82,8 @@ TEST(ViewFlight, SpecialPairs) {
 }
 
 TEST(ViewFlight, ALongWayGoesOverTheTop) {
-  const View from = toView({.latitude_deg = 0, .longitude_deg = 0, .altitude_m = 100}, kEarth_m);
-  const View to = toView({.latitude_deg = 0, .longitude_deg = 9, .altitude_m = 100}, kEarth_m);  // 1000 km
+  const View from = toView(geographic(0, 0, 100), kEarth_m);
+  const View to = toView(geographic(0, 9, 100), kEarth_m);  // 1000 km
   const ViewFlight flight(from, to, kEarth_m);
   const View middle = flight.at(flight.duration_s() / 2);
   EXPECT_NEAR(glm::length(middle.position_m) - kEarth_m, 0.32 * 999'000, 3000);  // rho^2 / 2 of the way
@@ -91,7 +93,7 @@ TEST(ViewFlight, ALongWayGoesOverTheTop) {
 
 TEST(ViewFlight, TheCameraFliesItAndAKeyEndsIt) {
   FlyCamera camera(kEarth_m);
-  ASSERT_TRUE(camera.setView(toView({.altitude_m = 1000, .heading_deg = 20, .pitch_deg = -5}, kEarth_m)));
+  ASSERT_TRUE(camera.setView(toView(geographic(0, 0, 1000, 20, -5), kEarth_m)));
   camera.goTo(46, 7, 3000);
   ASSERT_TRUE(camera.inFlight());
   for (int i = 0; i < 60 * 30 && camera.inFlight(); ++i) camera.advance({}, 1.0 / 60);
@@ -117,12 +119,12 @@ TEST(Geographic, ComesBack) {
   }
   for (const double latitude : {-90.0, 90.0, 0.0, 12.5}) {
     for (const double pitch : {-90.0, 90.0, 0.0, 30.0}) {
-      const View view = toView({.latitude_deg = latitude, .longitude_deg = 77, .altitude_m = 10, .heading_deg = 123, .pitch_deg = pitch}, kEarth_m);
+      const View view = toView(geographic(latitude, 77, 10, 123, pitch), kEarth_m);
       const View again = toView(toGeographic(view, kEarth_m), kEarth_m);
       EXPECT_NEAR(std::abs(glm::dot(again.orientation, view.orientation)), 1, 1e-9) << latitude << " " << pitch;
     }
   }
-  EXPECT_EQ(placeText({.latitude_deg = -7.126, .longitude_deg = 11}), "7.13 S 11.00 E");
+  EXPECT_EQ(placeText(geographic(-7.126, 11)), "7.13 S 11.00 E");
   EXPECT_EQ(lengthText(1.5), "1.5 m");
   EXPECT_EQ(lengthText(999.9), "1.00 km");
   EXPECT_EQ(lengthText(123456), "123 km");

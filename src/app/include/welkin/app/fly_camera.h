@@ -11,15 +11,15 @@
 
 namespace welkin::app {
 
-constexpr double kEyeHeight_m = 1.5;         // never nearer to the ground
-constexpr double kGroundScale_m = 30;        // h0: at eye height one flies at 10 m/s, as fast as a bird
-constexpr double kSpeed_per_s = 0.315;       // k: ln((400 km + h0) / (1.5 m + h0)) / 30 s
-constexpr double kDriveTime_s = 0.25;        // speed follows the keys with this time constant
-constexpr double kLevelTime_s = 0.5;         // a roll dies away with this one, looking level; slower the steeper one looks
-constexpr double kRollRate_rad_s = 1.2;      // of a full roll input
+constexpr double kEyeHeight_m = 1.5;     // never nearer to the ground
+constexpr double kGroundScale_m = 30;    // h0: at eye height one flies at 10 m/s, as fast as a bird
+constexpr double kSpeed_per_s = 0.315;   // k: ln((400 km + h0) / (1.5 m + h0)) / 30 s
+constexpr double kDriveTime_s = 0.25;    // speed follows the keys with this time constant
+constexpr double kLevelTime_s = 0.5;     // a roll dies away with this one, looking level; slower the steeper one looks
+constexpr double kRollRate_rad_s = 1.2;  // of a full roll input
 constexpr double kFastFactor = 5;
-constexpr double kWheelFactor = 1.25;        // of speed, a notch
-constexpr double kSpeedFactorRange = 1024;   // up and down
+constexpr double kWheelFactor = 1.25;       // of speed, a notch
+constexpr double kSpeedFactorRange = 1024;  // up and down
 
 struct FlyInput {
   glm::dvec3 move{0};      // right, up, back; -1..1 each. Up is away from the planet with `level`, else along the picture
@@ -44,10 +44,10 @@ class FlyCamera {
   // Height of the ground above the planet's radius, m, in a direction from its centre; must be finite. Default: 0.
   void setGround(std::function<double(const glm::dvec3& direction)> altitude_m);
 
-  double altitude_m() const;              // above the planet's radius
-  double height_m() const;                // above the ground
-  glm::dvec3 velocity_m_s() const;        // planet frame
-  double speedFactor = 1;                 // of the wheel
+  double altitude_m() const;        // above the planet's radius
+  double height_m() const;          // above the ground
+  glm::dvec3 velocity_m_s() const;  // planet frame
+  double speedFactor = 1;           // of the wheel
   bool moves() const { return flight_ || drive_ != glm::dvec3(0); }
 
   // A smooth flight. goTo keeps heading, pitch, roll and field of view.
@@ -74,7 +74,7 @@ class FlyCamera {
 
   double radius_m_;
   View view_;
-  glm::dvec3 drive_{0};  // velocity over k (h + h0), planet frame
+  glm::dvec3 drive_{0};   // velocity over k (h + h0), planet frame
   bool steered_ = false;  // since the view was set: one that was given stays as it is, rolled or not
   std::function<double(const glm::dvec3&)> ground_;
   std::optional<ViewFlight> flight_;
