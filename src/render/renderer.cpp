@@ -488,9 +488,10 @@ Result<void> Renderer::setMarch(const Quality& quality) {
   return impl_->clouds ? impl_->clouds->use(impl_->account, now) : Result<void>{};
 }
 
-void Renderer::preview(const View& view) {
+FrameCounters Renderer::preview(const View& view) {
   Impl& r = *impl_;
   r.drawAside(view, [&] { r.clouds->preview(r.scene, r.seen_ev(view)); });
+  return r.counted();
 }
 
 Result<FrameCounters> Renderer::preview(const View& view, std::span<const glm::ivec2> pixels) {
