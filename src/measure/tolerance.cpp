@@ -258,7 +258,8 @@ Result<KeptTolerance> keepTolerance(Renderer& renderer, const View& view, double
     if (!reached) return reached.error();
     kept.reached_255 = *reached;
     if (*reached <= tolerance_255 || !choice->kept) break;
-    aim *= std::min(tolerance_255 / *reached, 0.95);
+    // As much of the picture as of the pixels that were tried: what was picked is then too coarse for certain.
+    aim = std::min(0.95 * aim, choice->estimate_255 / *reached * tolerance_255 / kMargin);
   }
   return kept;
 }
