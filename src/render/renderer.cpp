@@ -488,6 +488,38 @@ Result<void> Renderer::setMarch(const Quality& quality) {
   return impl_->clouds ? impl_->clouds->use(impl_->account, now) : Result<void>{};
 }
 
+Result<void> Renderer::setOutput(const Output& output) {
+  Impl& r = *impl_;
+  Scene next = r.scene;
+  next.output = output;
+  const FramePlan plan = planFrame(next, r.planFor());
+  std::optional<ExposurePass> exposure;
+  if (plan.metered) {
+    auto made = ExposurePass::create(r.account, next);
+    if (!made) return made.error();
+    exposure.emplace(std::move(*made));
+  }
+  if (plan.metered != r.plan.metered || output.toneCurve != r.scene.output.toneCurve)
+    if (auto used = r.composite->useOutput(CompositeParts(plan), output.toneCurve); !used) return used;
+  r.scene.output = output;
+  r.plan = plan;
+  r.exposure.reset();
+  if (exposure) r.exposure.emplace(std::move(*exposure));
+  r.stillFrames = 0, r.marchedFrames = 0;
+  return {};
+}
+
+Result<void> Renderer::resize(int width, int height) {
+  Impl& r = *impl_;
+  if (width == r.settings.width && height == r.settings.height) return {};
+  r.settings.width = width, r.settings.height = height;
+  r.shown.reset(), r.stillFrames = 0, r.marchedFrames = 0;
+  if (auto made = r.composite->resize(width, height); !made) return made;
+  return r.clouds ? r.clouds->resize(r.account, width, height) : Result<void>{};
+}
+
+const gpu::Texture& Renderer::shown() const { return impl_->composite->display(); }
+
 void Renderer::preview(const View& view) {
   Impl& r = *impl_;
   r.drawAside(view, [&] { r.clouds->preview(r.scene, r.seen_ev(view)); });

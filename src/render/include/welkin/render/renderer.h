@@ -12,6 +12,7 @@
 #include "welkin/core/result.h"
 #include "welkin/gpu/context.h"
 #include "welkin/gpu/memory.h"
+#include "welkin/gpu/resources.h"
 #include "welkin/gpu/timer.h"
 #include "welkin/octree/tree_data.h"
 #include "welkin/physics/scene.h"
@@ -89,6 +90,10 @@ class Renderer {
   // Integrator, step rule, step, skipEmpty and detail (here: sampled at most) from the next picture on; the tree stays as it is. Fails, and
   // changes nothing that is drawn, when a shader does not compile.
   Result<void> setMarch(const Quality& quality);
+  // Exposure and tone curve from the next picture on. A metered exposure begins anew.
+  Result<void> setOutput(const Output& output);
+  // Pictures of this size from now on. Tree, light and exposure stay; the picture's history comes along, stretched.
+  Result<void> resize(int width, int height);
   // Draws this view from the tree as it is now, every pixel marched; no edit is applied; history, frame count and metered exposure
   // stay. For comparing: image() and radiance() then return this picture.
   void preview(const View& view);
@@ -100,6 +105,7 @@ class Renderer {
   TreeData tree(const View& view);
   Result<void> drawWith(const View& view, std::span<const shared::CloudWeights> clouds);
   Image8 image() const;
+  const gpu::Texture& shown() const;  // the same on the GPU, top row first; another one after resize()
   ImageF radiance() const;  // without pixels if nobody was to read it (RenderSettings::linear)
   double drawnDetail(const View& view) const;  // nodes a radian that the tree has for this view, or shownDetail if less
   double shownDetail(const View& view) const;  // nodes a radian past which voxels are finer than this view's pixels
