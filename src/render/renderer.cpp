@@ -421,7 +421,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
     r.timer.end();
-    if (!r.asked.empty() || haveEdits || back || r.step == 0 || r.settings.waitForEdits) r.ask(frame, r.settings.bricksPerFrame, false);
+    if (r.asked.size() < kLatency) r.ask(frame, r.settings.bricksPerFrame, false);
   } else {
     r.endPicture(frame, view, sinceLast_s, bare);
   }
@@ -508,6 +508,8 @@ Result<void> Renderer::setOutput(const Output& output) {
   r.stillFrames = 0, r.marchedFrames = 0;
   return {};
 }
+
+void Renderer::setBricksPerFrame(std::uint32_t most) { impl_->settings.bricksPerFrame = most; }
 
 Result<void> Renderer::resize(int width, int height) {
   Impl& r = *impl_;

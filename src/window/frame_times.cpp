@@ -4,10 +4,10 @@
 
 namespace welkin::window {
 
-void FrameTimes::add(double frame_ms, const FrameStats& stats) {
+void FrameTimes::add(double frame_ms, const std::map<std::string, gpu::PassTime>& passes) {
   frame_.ms[next_] = float(frame_ms);
   for (auto& [name, row] : passes_) row.ms[next_] = 0;
-  for (const auto& [name, time] : stats.passes) passes_[name].ms[next_] = float(time.wall_ms);
+  for (const auto& [name, time] : passes) passes_[name].ms[next_] = float(time.wall_ms);
   next_ = (next_ + 1) % kKept;
 }
 

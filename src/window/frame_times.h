@@ -11,7 +11,7 @@ namespace welkin::window {
 class FrameTimes {
  public:
   static constexpr std::size_t kKept = 180;
-  void add(double frame_ms, const FrameStats& stats);
+  void add(double frame_ms, const std::map<std::string, gpu::PassTime>& passes);
   struct Row {
     std::vector<float> ms = std::vector<float>(kKept, 0.0f);  // a ring
     double median() const;

@@ -90,6 +90,7 @@ class Renderer {
   // Integrator, step rule, step, skipEmpty and detail (here: sampled at most) from the next picture on; the tree stays as it is. Fails, and
   // changes nothing that is drawn, when a shader does not compile.
   Result<void> setMarch(const Quality& quality);
+  void setBricksPerFrame(std::uint32_t most);
   // Exposure and tone curve from the next picture on. A metered exposure begins anew.
   Result<void> setOutput(const Output& output);
   // Pictures of this size from now on. Tree, light and exposure stay; the picture's history comes along, stretched.

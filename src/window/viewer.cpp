@@ -1,0 +1,233 @@
+#include "viewer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controls.h"
+#include "interface.h"
+#include "log_lines.h"
+#include "panels.h"
+#include "presenter.h"
+#include "renderer_loader.h"
+#include "screenshots.h"
+#include "state_report.h"
+#include "welkin/app/stop.h"
+#include "welkin/core/files.h"
+#include "welkin/core/log.h"
+#include "welkin/gpu/program.h"
+#include "welkin/physics/scene_io.h"
+
+namespace welkin::window {
+namespace {
+
+constexpr app::Size kWindow{1280, 800};
+constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25;
+constexpr double kBricks_ms = 12;  // of a frame
+constexpr std::uint32_t kFirstBricks = 96, kLeastBricks = 16, kMostBricks = 8192;
+
+std::filesystem::path earth() { return std::filesystem::path(gpu::shaderFolder()).parent_path() / "scenes" / "earth.json"; }
+
+class Viewer {
+ public:
+  Viewer(const ViewOptions& options, app::Start&& start, Window& window, gpu::Context& context, double opened_ms)
+      : options_(options), window_(window), context_(context), interface_(window), glThread_(window.helper()), loader_(glThread_, context),
+        shots_(options.shots, options.common.gpu), opened_ms_(opened_ms) {
+    model_.device = context.device().renderer;
+    model_.software = context.device().software;
+    begin(std::move(start));
+  }
+
+  void run() {
+    double last_ms = gpu::wall_ms();
+    while (!window_.closing() && !app::stopRequested()) {
+      const Events events = window_.poll(idle_ ? kIdleWait_s : 0);
+      const double now_ms = gpu::wall_ms(), dt_s = std::min((now_ms - last_ms) / 1000, kMostStep_s);
+      last_ms = now_ms;
+      frame(events, now_ms, dt_s);
+    }
+    window_.hide();  // a renderer that is being made, and pictures that are being written, are finished unseen
+    report();
+  }
+
+ private:
+  void begin(app::Start&& start) {
+    model_.viewName = start.viewName;
+    model_.time_s = start.time_s;
+    app::apply(options_.common, start.scene);
+    app::apply(options_.common, start.view);
+    model_.start(std::move(start.scene), start.view);
+    window_.setTitle("Welkin: " + oneLine(model_.scene.name, 60));
+  }
+
+  void frame(const Events& events, double now_ms, double dt_s) {
+    for (const Press& press : events.pressed)
+      if (!interface_.wantsKeys()) Controls::press(model_, window_, press);
+    controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
+    for (const auto& file : events.dropped) load(file);
+    if (model_.playing) model_.time_s += dt_s * model_.timeSpeed;
+    model_.frameRate += (1 / std::max(dt_s, 1e-3) - model_.frameRate) * std::min(1.0, dt_s * 2);
+    carryOut();
+    model_.window = window_.pixels();
+    const bool minimised = model_.window.width <= 0 || model_.window.height <= 0;
+    if (!minimised) {
+      draw(dt_s);
+      const double drawn_ms = gpu::wall_ms();
+      interface_.begin();
+      drawInterface(model_);
+      interface_.end();
+      if (model_.software) glFinish();
+      const double interface_ms = gpu::wall_ms();
+      window_.swap();
+      const double shown_ms = gpu::wall_ms();
+      // A GPU waits for the display in swap; software has a copy to make.
+      const double frame_ms = (model_.software ? shown_ms : interface_ms) - now_ms;
+      if (drawn_) timed(frame_ms, interface_ms - drawn_ms, shown_ms - interface_ms);
+      if (drawn_ && counts_.firstPicture_s < 0) {
+        counts_.firstPicture_s = (gpu::wall_ms() - opened_ms_) / 1000;
+        log::info("first picture after {:.2f} s", counts_.firstPicture_s);
+      }
+    }
+    ++counts_.frames;
+    idle_ = minimised || !drawn_ || model_.stats.leftOut == "nothing-moves";
+    if (now_ms - reported_ms_ > 1000 * kStateEvery_s) reported_ms_ = now_ms, report();
+  }
+
+  void timed(double frame_ms, double interface_ms, double swap_ms) {
+    model_.scale.frame(frame_ms);
+    auto passes = model_.stats.passes;
+    passes["interface"].wall_ms = interface_ms;
+    passes["show"].wall_ms = swap_ms;
+    model_.times.add(frame_ms, passes);
+    if (counts_.pictures > 8) counts_.worstFrame_ms = std::max(counts_.worstFrame_ms, frame_ms);
+    if (!renderer_) return;
+    // As many bricks a frame as fit into their share of its time.
+    const double bricks_ms = passes["bricks"].wall_ms + passes["light"].wall_ms;
+    if (bricks_ms > kBricks_ms) bricks_ = std::max(bricks_ * 3 / 4, kLeastBricks);
+    else if (bricks_ms < kBricks_ms / 2 && model_.stats.bricksGenerated >= bricks_ / 2) bricks_ = std::min(bricks_ * 5 / 4 + 1, kMostBricks);
+    renderer_->setBricksPerFrame(bricks_);
+  }
+
+  // What is asked for is done, or begun.
+  void carryOut() {
+    Wanted wanted = std::exchange(model_.wanted, {});
+    if (wanted.load) load(*wanted.load);
+    if (wanted.saveScene) {
+      const auto saved = saveScene(model_.scene, *wanted.saveScene);
+      model_.say(saved ? "saved " + wanted.saveScene->string() : saved.error().message, !saved);
+    }
+    wanted.rebuild = wanted.rebuild || model_.wanted.rebuild;  // of load()
+    model_.wanted.rebuild = false;
+    if (renderer_ && !wanted.rebuild) {
+      const auto done = [this](const Result<void>& r) {
+        if (!r) model_.say(r.error().message, true);
+      };
+      if (wanted.march) done(renderer_->setMarch(model_.scene.quality));
+      if (wanted.output) done(renderer_->setOutput(model_.scene.output));
+      if (wanted.air && !renderer_->setAir(model_.scene, Renderer::AirChange::Recompute)) wanted.rebuild = true;
+    }
+    if (wanted.rebuild) loader_.begin(model_.scene, settings());
+    if (auto made = loader_.take()) use(std::move(*made));
+    model_.loading_s = loader_.busy() ? loader_.since_s() : -1;
+    if (wanted.picture && renderer_ && drawn_)
+      shots_.takeAsSeen(renderer_->image(), *renderer_, model_.view(), model_.stats.exposure_ev, model_.time_s);
+    if (wanted.convergedPicture && renderer_) {
+      shots_.takeConverged(model_.scene, model_.view(), model_.window, model_.time_s);
+      model_.say("a converged picture is being made");
+    }
+    for (const auto& note : shots_.news()) model_.say(note.text, note.bad);
+  }
+
+  RenderSettings settings() const {
+    RenderSettings s;
+    const app::Size size = model_.scale.sizeFor(window_.pixels());
+    s.width = std::max(size.width, 16), s.height = std::max(size.height, 16);
+    s.bricksPerFrame = bricks_;
+    s.waitForEdits = false;
+    s.linear = false;
+    return s;
+  }
+
+  void use(RendererLoader::Made made) {
+    if (!made) {
+      model_.say(made.error().message, true);
+      return;
+    }
+    loader_.end(std::move(renderer_));
+    renderer_ = std::move(*made);
+    model_.renderer = renderer_.get();
+    drawn_ = false;
+    for (const auto& note : renderer_->notes()) model_.say(note, true);
+  }
+
+  void load(const std::filesystem::path& file) {
+    auto start = app::loadStart(file, "");
+    if (!start) {
+      model_.say(start.error().message, true);
+      return;
+    }
+    begin(std::move(*start));
+    model_.say("loaded " + file.filename().string());
+  }
+
+  void draw(double dt_s) {
+    const app::Size size = model_.scale.sizeFor(model_.window);
+    if (renderer_) {
+      if (size.width != model_.picture.width || size.height != model_.picture.height || !drawn_) {
+        if (auto fits = renderer_->resize(size.width, size.height); !fits) model_.say(fits.error().message, true);
+        model_.picture = size;
+        ++counts_.resizes;
+      }
+      const View view = model_.view();
+      model_.stats = renderer_->frame(view, model_.reprojection ? FrameMode::Reprojected : FrameMode::Full, dt_s);
+      drawn_ = true;
+      ++counts_.pictures;
+      counts_.nanPixels += model_.stats.counters.nanPixels;
+      counts_.holes += model_.stats.counters.holes;
+    }
+    if (renderer_ && drawn_) presenter_.show(renderer_->shown(), model_.window);
+    else presenter_.clear(model_.window);
+  }
+
+  void report() {
+    if (options_.state.empty()) return;
+    counts_.seconds = (gpu::wall_ms() - opened_ms_) / 1000;
+    counts_.glMessages = context_.debugMessages() + glThread_.glMessages();
+    if (auto written = writeFile(options_.state, stateJson(model_, counts_)); !written) log::warn("{}", written.error().message);
+  }
+
+  const ViewOptions& options_;
+  Window& window_;
+  gpu::Context& context_;
+  LogLines logLines_;
+  Model model_;
+  Interface interface_;
+  Presenter presenter_;
+  GlThread glThread_;
+  RendererLoader loader_;
+  Screenshots shots_;
+  Controls controls_;
+  std::unique_ptr<Renderer> renderer_;
+  Counts counts_;
+  std::uint32_t bricks_ = kFirstBricks;  // a frame
+  bool drawn_ = false;  // a picture of this renderer is there
+  bool idle_ = false;
+  double opened_ms_, reported_ms_ = 0;
+};
+
+}  // namespace
+
+Result<void> view(const ViewOptions& options) {
+  const double opened_ms = gpu::wall_ms();
+  auto start = app::loadStart(options.input.empty() ? earth() : options.input, options.viewName.empty() && options.input.empty() ? "orbit" : options.viewName);
+  if (!start) return start.error();
+  auto window = Window::open(options.common.size.value_or(kWindow), "Welkin");
+  if (!window) return window.error();
+  auto context = gpu::Context::ofCurrent();
+  if (!context) return Error{context.error().message + "; `welkin render` draws pictures without a window"};
+  const auto& device = (*context)->device();
+  log::info("OpenGL: {} ({}){}", device.renderer, device.version, device.software ? ", software: no GPU is used" : "");
+  Viewer(options, std::move(*start), **window, **context, opened_ms).run();
+  return {};
+}
+
+}  // namespace welkin::window
