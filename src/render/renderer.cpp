@@ -201,6 +201,7 @@ void Renderer::Impl::ask(const ViewFrame& view, std::uint32_t maxBricks, bool sn
   input.frame = step;
   input.camera = selectionCamera(view, settings.height);
   input.maxBricks = maxBricks;
+  input.detailLimit = settings.spareDetail * input.camera.pixelDetail;
   input.snap = snap;
   input.results = bricks->results(step >= kLatency && !snap ? step - kLatency : step);
   asked.push_back(step++);
@@ -446,7 +447,9 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   std::map<std::uint32_t, BrickJob> lit;
   int batches = 0;
   const std::uint64_t first = r.step;  // edits asked for before answer to another view: they are applied, but say nothing about this one
+  bool stopped = false;  // what was asked for by then is still made, so that no frame finds it all at once
   for (int i = 0; i < kMostSettleSteps; ++i) {
+    if (r.asked.empty() && stopped) break;
     if (r.asked.empty()) r.ask(frame, kSettleBricks, true);
     FrameEdits edits = r.streamer->take(r.asked.front());
     r.asked.pop_front();
@@ -460,7 +463,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     made += generate.size();
     stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     const double left = r.last.stats.pendingBricks;
-    if (progress && !progress(double(made) / std::max(1.0, double(made) + left))) break;
+    if (progress && !stopped) stopped = !progress(double(made) / std::max(1.0, double(made) + left));
     if (r.last.frame >= first && r.last.stats.settled && generate.empty() && r.asked.empty()) break;
   }
   // Light is made once all bricks are there, as nobody looks before. If it was made before, the first bricks' neighbours were still coarse.

@@ -38,13 +38,14 @@ void memoryPanel(Model& model) {
   ImGui::ProgressBar(share(s.residency.bricks, s.residency.brickCapacity), {-1, 0}, fmt::format("{} of {} bricks", s.residency.bricks, s.residency.brickCapacity).c_str());
   explain("bricks of the octree that are there");
   line("waiting", fmt::format("{} bricks{}", s.residency.pendingBricks, s.residency.settled ? ", all is there" : ""));
+  line("detail", fmt::format("{:.0f} nodes a radian of {:.0f}", s.sampleDetail, s.residency.selectedDetail));
   line("nodes", fmt::format("{}, {} empty", s.residency.nodes, s.residency.emptyNodes));
   line("pictures", bytesText(s.frameTargetBytes) + ", beside the budget");
   line("mirror", bytesText(s.residency.cpuBytes) + " on the CPU");
   std::vector<float> levels;
   for (const auto n : s.residency.bricksByLevel) levels.push_back(float(n));
   while (levels.size() > 1 && levels.back() == 0) levels.pop_back();
-  ImGui::PlotHistogram("##levels", levels.data(), int(levels.size()), 0, "bricks by level of the octree", 0, FLT_MAX, {-1, 4 * ImGui::GetTextLineHeightWithSpacing()});
+  ImGui::PlotHistogram("##levels", levels.data(), int(levels.size()), 0, "bricks by level of the octree", 0, FLT_MAX, {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetTextLineHeightWithSpacing()});
   if (!model.renderer || !ImGui::TreeNode("what takes it")) return;
   for (const auto& [name, bytes] : model.renderer->memory().byName()) line(name, bytesText(bytes));
   ImGui::TreePop();

@@ -3,18 +3,27 @@
 #include <glad/gl.h>
 
 namespace welkin::window {
+namespace {
 
-void RendererLoader::begin(const Scene& scene, const RenderSettings& settings) {
+constexpr double kFirstTree_ms = 100;  // a coarse tree, so that the first picture has its clouds
+
+}  // namespace
+
+void RendererLoader::begin(const Scene& scene, const RenderSettings& settings, const View& view) {
   busy_ = true;
   begun_ms_ = gpu::wall_ms();
   const std::lock_guard lock(box_->mutex);
   const std::uint64_t number = ++box_->wanted;
-  thread_.run([box = box_, scene, settings, number, &context = context_] {
+  thread_.run([box = box_, scene, settings, view, number, &context = context_] {
     {
       const std::lock_guard asked(box->mutex);
       if (box->wanted != number) return;  // nobody waits for it any more
     }
     Made made = Renderer::create(context, scene, settings);
+    if (made) {
+      const double start_ms = gpu::wall_ms();
+      (*made)->settle(view, [start_ms](double) { return gpu::wall_ms() - start_ms < kFirstTree_ms; });
+    }
     glFinish();
     const std::lock_guard done(box->mutex);
     if (box->wanted == number) box->made.emplace(std::move(made));

@@ -12,8 +12,8 @@ namespace welkin::window {
 class RendererLoader {
  public:
   RendererLoader(GlThread& thread, gpu::Context& context) : thread_(thread), context_(context) {}
-  // In place of one that is still being made.
-  void begin(const Scene& scene, const RenderSettings& settings);
+  // In place of one that is still being made. Its tree is begun for this view.
+  void begin(const Scene& scene, const RenderSettings& settings, const View& view);
   bool busy() const { return busy_; }
   double since_s() const;  // begin()
   using Made = Result<std::unique_ptr<Renderer>>;

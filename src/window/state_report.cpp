@@ -21,6 +21,8 @@ std::string stateJson(const Model& m, const Counts& c) {
                    {"scale", m.scale.scale()},
                    {"loading", m.loading_s >= 0},
                    {"settled", m.stats.residency.settled},
+                   {"bricks_to_come", m.stats.residency.pendingBricks},
+                   {"detail", m.stats.sampleDetail},
                    {"bricks", m.stats.residency.bricks},
                    {"bytes_used", m.stats.bytesUsed},
                    {"bytes_budget", m.stats.bytesBudget},

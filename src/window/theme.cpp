@@ -55,7 +55,7 @@ void useTheme(double scale) {
   c[ImGuiCol_FrameBg] = colour(field, 0.9f), c[ImGuiCol_FrameBgHovered] = colour(raised), c[ImGuiCol_FrameBgActive] = colour(bright);
   c[ImGuiCol_Header] = colour(field, 0.9f), c[ImGuiCol_HeaderHovered] = colour(raised), c[ImGuiCol_HeaderActive] = colour(bright);
   c[ImGuiCol_Button] = colour(raised), c[ImGuiCol_ButtonHovered] = colour(bright), c[ImGuiCol_ButtonActive] = colour(0x3d5a82);
-  c[ImGuiCol_SliderGrab] = colour(0xc9934a), c[ImGuiCol_SliderGrabActive] = colour(sun), c[ImGuiCol_CheckMark] = colour(sun);
+  c[ImGuiCol_SliderGrab] = colour(0xc9934a, 0.55f), c[ImGuiCol_SliderGrabActive] = colour(sun, 0.7f), c[ImGuiCol_CheckMark] = colour(sun);
   c[ImGuiCol_PlotLines] = colour(0x7fb2e5), c[ImGuiCol_PlotHistogram] = colour(0x5d8fc4);
   c[ImGuiCol_ScrollbarBg] = colour(night, 0), c[ImGuiCol_ScrollbarGrab] = colour(raised), c[ImGuiCol_Separator] = colour(0x2b3b52);
   style.ScaleAllSizes(float(scale));

@@ -22,8 +22,9 @@ namespace {
 
 constexpr app::Size kWindow{1280, 800};
 constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25;
+constexpr double kSpareDetail = 1.4;  // for the next step of a flight
 constexpr double kBricks_ms = 12;  // of a frame
-constexpr std::uint32_t kFirstBricks = 96, kLeastBricks = 16, kMostBricks = 8192;
+constexpr std::uint32_t kFirstBricks = 128, kLeastBricks = 64, kMostBricks = 8192;
 
 std::filesystem::path earth() { return std::filesystem::path(gpu::shaderFolder()).parent_path() / "scenes" / "earth.json"; }
 
@@ -71,6 +72,7 @@ class Viewer {
     const bool minimised = model_.window.width <= 0 || model_.window.height <= 0;
     if (!minimised) {
       draw(dt_s);
+      if (model_.software) glFinish();  // so that the profiler tells the parts apart
       const double drawn_ms = gpu::wall_ms();
       interface_.begin();
       drawInterface(model_);
@@ -81,7 +83,7 @@ class Viewer {
       const double shown_ms = gpu::wall_ms();
       // A GPU waits for the display in swap; software has a copy to make.
       const double frame_ms = (model_.software ? shown_ms : interface_ms) - now_ms;
-      if (drawn_) timed(frame_ms, interface_ms - drawn_ms, shown_ms - interface_ms);
+      if (drawn_) timed(frame_ms, {{"stretch", drawn_ms - pictured_ms_}, {"interface", interface_ms - drawn_ms}, {"show", shown_ms - interface_ms}});
       if (drawn_ && counts_.firstPicture_s < 0) {
         counts_.firstPicture_s = (gpu::wall_ms() - opened_ms_) / 1000;
         log::info("first picture after {:.2f} s", counts_.firstPicture_s);
@@ -92,19 +94,18 @@ class Viewer {
     if (now_ms - reported_ms_ > 1000 * kStateEvery_s) reported_ms_ = now_ms, report();
   }
 
-  void timed(double frame_ms, double interface_ms, double swap_ms) {
+  void timed(double frame_ms, const std::map<std::string, double>& parts_ms) {
     model_.scale.frame(frame_ms);
     auto passes = model_.stats.passes;
-    passes["interface"].wall_ms = interface_ms;
-    passes["show"].wall_ms = swap_ms;
+    for (const auto& [name, ms] : parts_ms) passes[name].wall_ms = ms;
     model_.times.add(frame_ms, passes);
     if (counts_.pictures > 8) counts_.worstFrame_ms = std::max(counts_.worstFrame_ms, frame_ms);
     if (!renderer_) return;
     // As many bricks a frame as fit into their share of its time.
-    const double bricks_ms = passes["bricks"].wall_ms + passes["light"].wall_ms;
-    if (bricks_ms > kBricks_ms) bricks_ = std::max(bricks_ * 3 / 4, kLeastBricks);
-    else if (bricks_ms < kBricks_ms / 2 && model_.stats.bricksGenerated >= bricks_ / 2) bricks_ = std::min(bricks_ * 5 / 4 + 1, kMostBricks);
-    renderer_->setBricksPerFrame(bricks_);
+    if (model_.stats.bricksGenerated < kLeastBricks / 2) return;
+    const double brick_ms = (passes["bricks"].wall_ms + passes["light"].wall_ms) / model_.stats.bricksGenerated;
+    brick_ms_ += (brick_ms - brick_ms_) / 8;
+    renderer_->setBricksPerFrame(std::uint32_t(std::clamp(kBricks_ms / brick_ms_, double(kLeastBricks), double(kMostBricks))));
   }
 
   // What is asked for is done, or begun.
@@ -125,7 +126,7 @@ class Viewer {
       if (wanted.output) done(renderer_->setOutput(model_.scene.output));
       if (wanted.air && !renderer_->setAir(model_.scene, Renderer::AirChange::Recompute)) wanted.rebuild = true;
     }
-    if (wanted.rebuild) loader_.begin(model_.scene, settings());
+    if (wanted.rebuild) loader_.begin(model_.scene, settings(), model_.view());
     if (auto made = loader_.take()) use(std::move(*made));
     model_.loading_s = loader_.busy() ? loader_.since_s() : -1;
     if (wanted.picture && renderer_ && drawn_)
@@ -141,9 +142,10 @@ class Viewer {
     RenderSettings s;
     const app::Size size = model_.scale.sizeFor(window_.pixels());
     s.width = std::max(size.width, 16), s.height = std::max(size.height, 16);
-    s.bricksPerFrame = bricks_;
+    s.bricksPerFrame = kFirstBricks;
     s.waitForEdits = false;
     s.linear = false;
+    s.spareDetail = kSpareDetail;
     return s;
   }
 
@@ -184,6 +186,7 @@ class Viewer {
       counts_.nanPixels += model_.stats.counters.nanPixels;
       counts_.holes += model_.stats.counters.holes;
     }
+    pictured_ms_ = gpu::wall_ms();
     if (renderer_ && drawn_) presenter_.show(renderer_->shown(), model_.window);
     else presenter_.clear(model_.window);
   }
@@ -208,10 +211,10 @@ class Viewer {
   Controls controls_;
   std::unique_ptr<Renderer> renderer_;
   Counts counts_;
-  std::uint32_t bricks_ = kFirstBricks;  // a frame
+  double brick_ms_ = kBricks_ms / kFirstBricks;  // to make one and light it
   bool drawn_ = false;  // a picture of this renderer is there
   bool idle_ = false;
-  double opened_ms_, reported_ms_ = 0;
+  double opened_ms_, reported_ms_ = 0, pictured_ms_ = 0;
 };
 
 }  // namespace

@@ -29,6 +29,7 @@ struct RenderSettings {
   std::uint32_t workerJitterSeed = 0;   // tests of determinism: random delays in the worker
   bool reprojection = true;             // march one pixel in 16 a frame
   double sky_ms = 8;                    // a frame's work on the light of a changed air (Renderer::setAir); at least one slice of it
+  double spareDetail = 0;               // the tree reaches so many times the detail of the picture's pixels; 0: as fine as the budget allows
   int brickBits = 16;                   // of each number of a brick, 8 or 16: 8 is for comparisons (docs/decisions/0013)
   double light = 1;                     // reach and samples of the rays to the sun; others than 1 for comparisons
   bool timing = true;                   // per-pass times (on software GL: glFinish after each pass)
