@@ -38,7 +38,7 @@ double medianTime_ms(Renderer& renderer, const View& view) {
 
 void printKept(const RenderOptions& o, const measure::KeptTolerance& kept) {
   const Quality& q = kept.choice.quality;
-  fmt::print("tolerance {}: reached {:.2f} (RMSE, 0-255) with step {}, detail {}{}\n", *o.common.tolerance_255, kept.reached_255, q.step,
+  fmt::print("tolerance {}: reached {:.2f} (RMSE, 0-255) with step {}, spread {}, detail {}{}\n", *o.common.tolerance_255, kept.reached_255, q.step, q.spread,
              q.detail > 0 ? fmt::format("{:.0f} nodes a radian", q.detail) : "of the pixels",
              kept.reached_255 <= *o.common.tolerance_255 ? "" : "; no finer march was tried");
 }

@@ -41,9 +41,9 @@ Result<FrameStats> drawConverged(Renderer& renderer, const View& view, const std
 
 PictureTime timePicture(Renderer& renderer, const View& view) {
   const double wall0 = gpu::wall_ms(), cpu0 = gpu::processCpu_ms();
-  renderer.preview(view);
+  const FrameCounters counters = renderer.preview(view);
   glFinish();
-  return {gpu::wall_ms() - wall0, gpu::processCpu_ms() - cpu0};
+  return {gpu::wall_ms() - wall0, gpu::processCpu_ms() - cpu0, counters};
 }
 
 void describeDevice(const gpu::Context& context, measure::ReportContext& out) {

@@ -108,7 +108,7 @@ class Replay {
     const View& view = pose(frame).view;
     const double exposure_ev = report_.frames.empty() ? view.exposure_ev.value_or(plan_.scene.output.exposure_ev.value_or(0))
                                                       : report_.frames.back().stats.exposure_ev;
-    const auto choice = measure::chooseMarch(*stage_.renderer, view, exposure_ev, *options_.common.tolerance_255);
+    const auto choice = measure::chooseMarch(*stage_.renderer, view, exposure_ev, *options_.common.tolerance_255, measure::DrawnAs::Reprojected);
     if (!choice) return choice.error();
     report_.tolerance_255 = options_.common.tolerance_255;
     report_.tolerance.push_back({frame, *choice, {}});

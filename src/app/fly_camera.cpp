@@ -163,6 +163,12 @@ bool FlyCamera::setView(const View& view) {
   return true;
 }
 
+void FlyCamera::setLens(double fov_deg, std::optional<double> exposure_ev) {
+  if (!(fov_deg > 0 && fov_deg < 180)) return;
+  view_.fov_deg = fov_deg;
+  view_.exposure_ev = exposure_ev;
+}
+
 void FlyCamera::setPlanetRadius(double radius_m) {
   radius_m_ = radius_m;
   stop();

@@ -7,6 +7,7 @@
 #include "welkin/app/build_info.h"
 #include "welkin/app/checksum.h"
 #include "welkin/core/files.h"
+#include "welkin/core/log.h"
 #include "welkin/physics/path_io.h"
 #include "welkin/physics/scene_io.h"
 
@@ -113,7 +114,14 @@ Result<Start> loadStart(const std::filesystem::path& file, const std::string& vi
     if (auto found = findData(*state, file); !found) return found.error();
     start.scene = std::move(state->scene);
     start.view = state->view;
-    start.size = {state->width, state->height};
+    start.size = state->width > 0 ? Size{state->width, state->height}
+                                  : std::visit(
+                                        [](const auto& image) {
+                                          return Size{image.width, image.height};
+                                        },
+                                        picture->pixels);
+    start.notes = std::move(state->notes);
+    for (const auto& note : start.notes) log::warn("{}", note);
     start.time_s = state->time_s;
     start.exposure_ev = state->exposure_ev;
     if (viewName.empty()) return start;

@@ -57,7 +57,7 @@ Result<PictureFile> readPng(const fs::path& file) {
   if (const unsigned code = lodepng::decode(pixels, width, height, state, data, bytes->size()); code != 0) return bad(code);
   PictureFile out;
   const auto keep = [&](const char* key, const char* text) {
-    if (std::string_view(key).starts_with("welkin:")) out.texts.emplace_back(key, text);
+    if (std::string_view(key).starts_with("welkin:") || std::string_view(key).starts_with(kThesisKeys)) out.texts.emplace_back(key, text);
   };
   for (std::size_t i = 0; i < state.info_png.text_num; ++i) keep(state.info_png.text_keys[i], state.info_png.text_strings[i]);
   for (std::size_t i = 0; i < state.info_png.itext_num; ++i) keep(state.info_png.itext_keys[i], state.info_png.itext_strings[i]);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "welkin/app/checksum.h"
+#include "picture_thesis.h"
 #include "welkin/app/picture.h"
 #include "welkin/core/files.h"
 #include "welkin/core/units.h"
@@ -32,6 +32,9 @@ class Reader {
  public:
   Reader(const Texts& texts, const fs::path& picture) : texts_(texts), picture_(picture.string()) {}
 
+  bool has(const std::string& key) const {
+    return std::any_of(texts_.begin(), texts_.end(), [&](const auto& entry) { return entry.first == key; });
+  }
   const std::string& text(const std::string& key) const {
     for (const auto& [name, value] : texts_) {
       if (name == key) return value;
@@ -97,6 +100,7 @@ Texts textsFromState(const PictureState& s, const fs::path& folder) {
 Result<PictureState> stateFromTexts(const Texts& texts, const fs::path& picture) {
   try {
     const Reader in(texts, picture);
+    if (!in.has("welkin:scene") && isThesisPicture(texts)) return stateOfThesisPicture(texts, picture);
     PictureState s;
     auto scene = parseScene(in.text("welkin:scene"), in.place("welkin:scene"), folderOf(picture));
     if (!scene) return scene.error();
@@ -105,13 +109,28 @@ Result<PictureState> stateFromTexts(const Texts& texts, const fs::path& picture)
     auto view = parseView(in.text("welkin:view"), in.place("welkin:view"), s.scene.planet);
     if (!view) return view.error();
     s.view = *view;
-    const auto settings = in.object("welkin:settings");
-    s.width = in.edge(settings, "width");
-    s.height = in.edge(settings, "height");
-    s.exposure_ev = in.number(settings, "exposure_ev");
-    s.time_s = in.number("welkin:time_s");
-    s.build = in.text("welkin:build");
-    s.converged = in.text("welkin:converged") == "1";
+    // What an older version did not write has a stand-in, and a note of it.
+    const auto there = [&](bool is, const char* what, const char* instead) {
+      if (!is) s.notes.push_back(fmt::format("{}: {} is missing: {}", picture.string(), what, instead));
+      return is;
+    };
+    const auto settings = in.has("welkin:settings") ? in.object("welkin:settings") : Json::object();
+    if (there(settings.contains("width") && settings.contains("height"), "welkin:settings: /width or /height", "the picture's own size")) {
+      s.width = in.edge(settings, "width");
+      s.height = in.edge(settings, "height");
+    }
+    const bool exposed = settings.contains("exposure_ev");
+    if (there(exposed, "welkin:settings: /exposure_ev", "the scene's exposure"))
+      s.exposure_ev = in.number(settings, "exposure_ev");
+    else
+      s.exposure_ev = s.view.exposure_ev.value_or(s.scene.output.exposure_ev.value_or(0));
+    if (there(in.has("welkin:time_s"), "welkin:time_s", "scene time 0")) s.time_s = in.number("welkin:time_s");
+    if (there(in.has("welkin:build"), "welkin:build", "what made it is not known")) s.build = in.text("welkin:build");
+    if (there(in.has("welkin:converged"), "welkin:converged", "taken as not converged")) s.converged = in.text("welkin:converged") == "1";
+    if (!there(in.has("welkin:data"), "welkin:data", "data files are not checked")) {
+      for (const auto& file : dataFiles(s.scene)) s.data[file] = "";
+      return s;
+    }
     const auto data = in.object("welkin:data");
     for (const auto& entry : data.items()) {
       if (!entry.value().is_string()) in.fail("welkin:data", "a checksum for every file");
@@ -121,43 +140,6 @@ Result<PictureState> stateFromTexts(const Texts& texts, const fs::path& picture)
   } catch (const BadState& bad) {
     return Error{bad.message};
   }
-}
-
-Result<void> findData(PictureState& state, const fs::path& picture) {
-  std::map<fs::path, std::string> found;
-  for (const auto& [file, sum] : state.data) {
-    std::error_code ec;
-    fs::path place = file;
-    if (!fs::exists(place, ec)) {
-      // The picture was moved: the same path without its way up, below the working folder.
-      fs::path below;
-      for (const auto& part : relativeTo(file, folderOf(picture))) {
-        if (part != ".." && !part.is_absolute()) below /= part;
-      }
-      if (fs::exists(below, ec)) place = fs::absolute(below).lexically_normal();
-    }
-    const bool there = fs::exists(place, ec);
-    if (sum == kMissing) {
-      // It was drawn without the file (procedural weather, plain ground); were it read now, it would be another picture.
-      if (there) {
-        replaceDataFile(state.scene, file, {});
-        continue;
-      }
-    } else if (!there) {
-      return Error{fmt::format("{}: welkin:data: missing data: {} (sha256 {})", picture.string(), file.string(), oneLine(sum, 64))};
-    } else {
-      const auto now = sha256File(place);
-      if (!now) return now.error();
-      if (*now != sum) {
-        return Error{fmt::format("{}: welkin:data: {} has changed: expected sha256 {}, got {}", picture.string(), place.string(),
-                                 oneLine(sum, 64), *now)};
-      }
-    }
-    replaceDataFile(state.scene, file, place);
-    found[place] = sum;
-  }
-  state.data = std::move(found);
-  return {};
 }
 
 }  // namespace welkin::app

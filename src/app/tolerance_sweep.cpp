@@ -16,9 +16,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Setting {
-  double detailShare, step;
+  double detailShare, step, spread;
   double rmse_255 = 0, time_ms = 0;
-  std::vector<double> times;
+  FrameCounters met = {};
+  std::vector<double> times = {};
 };
 
 double median(std::vector<double> values) {
@@ -47,7 +48,7 @@ class ViewSweep {
              {"candidates", Json::array()},
              {"choices", Json::array()}};
     for (const Setting& s : settings_)
-      out["candidates"].push_back({{"detail_share", s.detailShare}, {"step", s.step}, {"rmse_255", s.rmse_255}, {"time_ms", s.time_ms}});
+      out["candidates"].push_back({{"detail_share", s.detailShare}, {"step", s.step}, {"spread", s.spread}, {"rmse_255", s.rmse_255}, {"rays", s.met.marchedPixels}, {"cells", s.met.cells}, {"samples", s.met.samples}, {"time_ms", s.time_ms}});
     for (const double asked : options_.asked_255) {
       auto choice = choose(asked);
       if (!choice) return choice.error();
@@ -64,26 +65,34 @@ class ViewSweep {
     if (!truth) return truth.error();
     for (const double share : measure::kDetailShares)
       for (const double step : measure::kSteps) {
-        Setting s{share, step, 0, 0, {}};
-        const auto error = measure::reachedError(renderer_, view_, exposure_ev_, *truth, measure::candidate(renderer_, view_, share, step));
-        if (!error) return error.error();
-        s.rmse_255 = *error;
-        if (s.rmse_255 <= greatest) settings_.push_back(std::move(s));
+        const std::size_t before = settings_.size();
+        for (const double spread : measure::kSpreads) {
+          Setting s{share, step, spread};
+          const auto error = measure::reachedError(renderer_, view_, exposure_ev_, *truth, march(s));
+          if (!error) return error.error();
+          s.rmse_255 = *error;
+          if (s.rmse_255 > greatest) break;  // more spread errs more
+          settings_.push_back(std::move(s));
+        }
+        if (settings_.size() == before) break;  // so does a longer step
       }
     for (int turn = 0; turn < options_.repetitions; ++turn)
       for (Setting& s : settings_) {
         if (stopRequested()) return Error{"stopped before the sweep was whole"};
-        if (auto used = renderer_.setMarch(measure::candidate(renderer_, view_, s.detailShare, s.step)); !used) return used;
+        if (auto used = renderer_.setMarch(march(s)); !used) return used;
         const PictureTime time = timePicture(renderer_, view_);
         s.times.push_back(software_ ? time.cpu_ms : time.wall_ms);
+        s.met = time.counters;
       }
     for (Setting& s : settings_) s.time_ms = median(s.times);
     return {};
   }
 
+  Quality march(const Setting& s) const { return measure::candidate(renderer_, view_, s.detailShare, s.step, s.spread); }
+
   Result<Json> choose(double asked_255) {
     Quality whole = renderer_.scene().quality;
-    whole.detail = 0;
+    whole.detail = 0, whole.spread = 0;
     if (auto used = renderer_.setMarch(whole); !used) return used.error();
     const auto kept = measure::keepTolerance(renderer_, view_, exposure_ev_, asked_255);
     if (!kept) return kept.error();
@@ -91,13 +100,14 @@ class ViewSweep {
     const double share = q.detail > 0 ? q.detail / renderer_.drawnDetail(view_) : 1;
     const Setting *picked = nullptr, *cheapest = nullptr;
     for (const Setting& s : settings_) {
-      if (s.step == q.step && std::abs(s.detailShare - share) < 1e-6 * share) picked = &s;
+      if (s.step == q.step && s.spread == q.spread && std::abs(s.detailShare - share) < 1e-6 * share) picked = &s;
       if (s.rmse_255 <= asked_255 && (!cheapest || s.time_ms < cheapest->time_ms)) cheapest = &s;
     }
     Json out{{"asked", asked_255},
              {"reached_rmse_255", kept->reached_255},
              {"estimate_rmse_255", kept->choice.estimate_255},
              {"step", q.step},
+             {"spread", q.spread},
              {"detail_share", share},
              {"candidates_drawn", kept->choice.tried},
              {"rounds", kept->rounds + 1},
@@ -105,6 +115,7 @@ class ViewSweep {
     if (picked) out["time_ms"] = picked->time_ms;
     if (cheapest)
       out["cheapest"] = {{"step", cheapest->step},
+                         {"spread", cheapest->spread},
                          {"detail_share", cheapest->detailShare},
                          {"time_ms", cheapest->time_ms},
                          {"rmse_255", cheapest->rmse_255}};
@@ -122,9 +133,9 @@ class ViewSweep {
 
 void print(const Json& view) {
   for (const auto& c : view["choices"])
-    fmt::print("{:16} asked {:4} reached {:6.3f}  detail {:.2f} step {:.2f}  {:7.2f} ms, cheapest {:7.2f} ms\n",
+    fmt::print("{:16} asked {:4} reached {:6.3f}  detail {:.2f} step {:.2f} spread {:2.0f}  {:7.2f} ms, cheapest {:7.2f} ms\n",
                view["view"].get<std::string>(), c["asked"].get<double>(), c["reached_rmse_255"].get<double>(),
-               c["detail_share"].get<double>(), c["step"].get<double>(), c.value("time_ms", 0.0),
+               c["detail_share"].get<double>(), c["step"].get<double>(), c["spread"].get<double>(), c.value("time_ms", 0.0),
                c.contains("cheapest") ? c["cheapest"]["time_ms"].get<double>() : 0.0);
 }
 
@@ -176,7 +187,7 @@ Result<void> toleranceSweep(const ToleranceSweepOptions& o) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     progress.update(double(i) / double(views.size()), views[i].first);
     Quality whole = start->scene.quality;
-    whole.detail = 0;
+    whole.detail = 0, whole.spread = 0;
     if (auto used = stage->renderer->setMarch(whole); !used) return used;
     auto view = ViewSweep(o, *stage, views[i].first, views[i].second).run();
     if (!view) return Error{fmt::format("{}: {}", views[i].first, view.error().message)};

@@ -50,7 +50,12 @@ Result<std::string> readFile(const fs::path& file, std::uint64_t maxBytes) {
   if (fd < 0) return failed(file, "cannot be read", errno);
   std::string bytes;
   const auto size = fs::file_size(file, ec);
-  if (!ec && size <= maxBytes) bytes.reserve(size);
+  const Error tooLarge{fmt::format("{}: expected at most {} bytes", file.string(), maxBytes)};
+  if (!ec && size > maxBytes) {
+    ::close(fd);
+    return tooLarge;
+  }
+  if (!ec) bytes.reserve(size);
   char block[1 << 16];
   while (true) {
     const ssize_t n = ::read(fd, block, sizeof block);
@@ -64,7 +69,7 @@ Result<std::string> readFile(const fs::path& file, std::uint64_t maxBytes) {
     bytes.append(block, static_cast<std::size_t>(n));
     if (bytes.size() > maxBytes) {
       ::close(fd);
-      return Error{fmt::format("{}: expected at most {} bytes", file.string(), maxBytes)};
+      return tooLarge;
     }
   }
   ::close(fd);

@@ -159,11 +159,12 @@ Json choiceJson(const ToleranceRow& row) {
             {{"integrator", kIntegratorNames[std::size_t(q.integrator)]},
              {"step_rule", kStepRuleNames[std::size_t(q.stepRule)]},
              {"step", q.step},
+             {"spread", q.spread},
              {"detail", q.detail}}},
            {"kept", row.choice.kept},
            {"estimate_rmse_255", row.choice.estimate_255},
            {"finest_rmse_255", row.choice.finest_255},
-           {"ray_cost", row.choice.cost},
+           {"cost", row.choice.cost},
            {"candidates_drawn", row.choice.tried},
            {"pixels", row.choice.pixels}};
   if (row.reached_255) out["reached_rmse_255"] = *row.reached_255;

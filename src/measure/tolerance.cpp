@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "welkin/measure/image_compare.h"
 
@@ -13,11 +14,10 @@ constexpr double kTruthStep = 0.01;    // a quarter of the finest candidate's
 constexpr double kMargin = 0.93;       // of the tolerance is aimed at: chosen, for the pixels that are not tried; render measures them all
 constexpr std::size_t kPixels = 6400;  // of a picture are tried
 constexpr double kLookUpCost = 2.6;    // samples
+constexpr double kRayCost = 0;         // samples
 constexpr int kMostRounds = 3;
-constexpr int kMostChecks = 8;  // candidates that a prediction names and a picture denies
-
-constexpr std::size_t kDetails = std::size(kDetailShares), kStepCount = std::size(kSteps);
-constexpr std::size_t kFineStep = 0;  // errors of detail alone are measured at this step, those of the step alone at full detail
+constexpr int kMostDenied = 12;  // candidates that a prediction names and a picture denies
+constexpr std::size_t kStepCount = std::size(kSteps);
 
 // One pixel of each block of n x n, anywhere in it: a regular pattern could fall in with the picture's own.
 std::vector<glm::ivec2> somePixels(int width, int height) {
@@ -43,10 +43,25 @@ ImageF pick(const ImageF& picture, const std::vector<glm::ivec2>& pixels) {
   return out;
 }
 
+constexpr std::size_t kSpreadCount = std::size(kSpreads);
+
+// Indices into kDetailShares, kSteps, kSpreads.
+struct Candidate {
+  std::size_t detail, step, spread;
+  auto operator<=>(const Candidate&) const = default;
+  bool coarserThan(const Candidate& o) const { return detail >= o.detail && step >= o.step && spread >= o.spread; }
+};
+constexpr Candidate kFinest{0, 0, 0};
+
+Quality marchOf(const Renderer& renderer, const View& view, const Candidate& c) {
+  return candidate(renderer, view, kDetailShares[c.detail], kSteps[c.step], kSpreads[c.spread]);
+}
+
 struct Trial {
   double error_255, cost;
 };
 
+// Draws candidates, and says how far they are from the truth on some pixels.
 class Trials {
  public:
   Trials(Renderer& renderer, const View& view, double exposure_ev) : renderer_(renderer), view_(view), exposure_ev_(exposure_ev) {}
@@ -54,113 +69,156 @@ class Trials {
   Result<void> begin() {
     renderer_.preview(view_);
     const ImageF whole = renderer_.radiance();
+    all_ = std::size_t(whole.width) * std::size_t(whole.height);
     pixels_ = somePixels(whole.width, whole.height);
     if (auto drawn = draw(truthMarch(renderer_.scene().quality)); !drawn) return drawn.error();
-    truth_ = pick(renderer_.radiance(), pixels_);
+    truth_ = picked();
     return {};
   }
 
-  Result<Trial> operator()(std::size_t detail, std::size_t step) {
-    const auto key = detail * kStepCount + step;
-    if (const auto found = done_.find(key); found != done_.end()) return found->second;
-    auto counters = draw(candidate(renderer_, view_, kDetailShares[detail], kSteps[step]));
-    if (!counters) return counters.error();
-    const auto error = compareShown(truth_, pick(renderer_.radiance(), pixels_), renderer_.scene().output.toneCurve, exposure_ev_);
+  Result<Trial> operator()(const Candidate& c) {
+    if (const auto found = done_.find(c); found != done_.end()) return found->second;
+    auto cost = draw(marchOf(renderer_, view_, c));
+    if (!cost) return cost.error();
+    auto error = from(truth_);
     if (!error) return error.error();
-    return done_[key] = {error->rmse_255, rayCost(*counters)};
+    return done_[c] = {*error, *cost};
+  }
+
+  // What a spread adds, at a step of the middle: the picture with it against that without, and the share of its cost.
+  Result<Trial> ofSpread(std::size_t spread) {
+    const Candidate middle{0, kStepCount / 2, spread};
+    auto cost = draw(marchOf(renderer_, view_, middle));
+    if (!cost) return cost.error();
+    if (spread == 0) unspread_ = picked(), unspreadCost_ = *cost;
+    auto error = from(unspread_);
+    if (!error) return error.error();
+    return Trial{*error, *cost / std::max(unspreadCost_, 1e-9)};
+  }
+
+  // The cheapest of all that were drawn and keep it, if any does.
+  std::optional<Candidate> cheapest(double error_255) const {
+    std::optional<Candidate> best;
+    for (const auto& [c, t] : done_)
+      if (t.error_255 <= error_255 && (!best || t.cost < done_.at(*best).cost)) best = c;
+    return best;
   }
   std::size_t pixels() const { return pixels_.size(); }
   int count() const { return int(done_.size()); }
 
  private:
-  Result<FrameCounters> draw(const Quality& march) {
+  // Between its pixels a spread picture needs all others.
+  Result<double> draw(const Quality& march) {
     if (auto used = renderer_.setMarch(march); !used) return used.error();
-    return renderer_.preview(view_, pixels_);
+    if (march.spread > 0) return marchCost(renderer_.preview(view_), all_);
+    auto counters = renderer_.preview(view_, pixels_);
+    if (!counters) return counters.error();
+    return marchCost(*counters, pixels_.size());
   }
+  ImageF picked() const { return pick(renderer_.radiance(), pixels_); }
+  Result<double> from(const ImageF& other) const {
+    const auto error = compareShown(other, picked(), renderer_.scene().output.toneCurve, exposure_ev_);
+    if (!error) return error.error();
+    return error->rmse_255;
+  }
+
   Renderer& renderer_;
   const View& view_;
   double exposure_ev_;
+  std::size_t all_ = 0;
   std::vector<glm::ivec2> pixels_;
-  ImageF truth_;
-  std::map<std::size_t, Trial> done_;
+  ImageF truth_, unspread_;
+  double unspreadCost_ = 0;
+  std::map<Candidate, Trial> done_;
 };
 
-struct Candidate {
-  std::size_t detail, step;
+// One axis alone, until it errs too much by itself.
+template <class Draw>
+Result<std::vector<Trial>> alone(std::size_t count, double most_255, const Draw& draw) {
+  std::vector<Trial> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto t = draw(i);
+    if (!t) return t.error();
+    out.push_back(*t);
+    if (t->error_255 > most_255) break;
+  }
+  return out;
+}
+
+struct Predicted {
+  Candidate candidate;
   double error_255, cost;
 };
+
+// Together: independent errors add in square, costs multiply. Cheapest first.
+std::vector<Predicted> combinations(const std::vector<Trial>& details, const std::vector<Trial>& steps, const std::vector<Trial>& spreads) {
+  std::vector<Predicted> out;
+  for (std::size_t d = 0; d < details.size(); ++d)
+    for (std::size_t s = 0; s < steps.size(); ++s)
+      for (std::size_t p = 0; p < spreads.size(); ++p)
+        out.push_back({{d, s, p},
+                       std::hypot(details[d].error_255, steps[s].error_255, spreads[p].error_255),
+                       details[d].cost * steps[s].cost / std::max(steps[0].cost, 1e-9) * spreads[p].cost});
+  std::sort(out.begin(), out.end(), [](const Predicted& a, const Predicted& b) { return a.cost < b.cost; });
+  return out;
+}
 
 }  // namespace
 
 Quality truthMarch(const Quality& quality) {
   Quality truth = quality;
   truth.integrator = Integrator::ExponentialLinear, truth.stepRule = StepRule::Optical, truth.skipEmpty = true;
-  truth.step = kTruthStep;
+  truth.step = kTruthStep, truth.spread = 0;
   return truth;
 }
 
-Quality candidate(const Renderer& renderer, const View& view, double detailShare, double step) {
+Quality candidate(const Renderer& renderer, const View& view, double detailShare, double step, double spread) {
   Quality out = truthMarch(renderer.scene().quality);
-  out.step = step;
+  out.step = step, out.spread = spread;
   out.detail = detailShare < 1 ? detailShare * renderer.drawnDetail(view) : 0;
   return out;
 }
 
-double rayCost(const FrameCounters& c) {
-  return c.marchedPixels ? (kLookUpCost * double(c.cells) + double(c.samples)) / double(c.marchedPixels) : 0;
+double marchCost(const FrameCounters& c, std::size_t pixels) {
+  return pixels ? (kLookUpCost * double(c.cells) + double(c.samples) + kRayCost * double(c.marchedPixels)) / double(pixels) : 0;
 }
 
-Result<MarchChoice> chooseMarch(Renderer& renderer, const View& view, double exposure_ev, double tolerance_255) {
+Result<MarchChoice> chooseMarch(Renderer& renderer, const View& view, double exposure_ev, double tolerance_255, DrawnAs drawn) {
   const Quality before = renderer.scene().quality;
   MarchChoice choice;
   choice.quality = before;
   if (!renderer.plan().clouds) return choice;
   Quality whole = before;
-  whole.detail = 0;
+  whole.detail = 0, whole.spread = 0;
   if (auto used = renderer.setMarch(whole); !used) return used.error();
   Trials trial(renderer, view, exposure_ev);
   if (auto begun = trial.begin(); !begun) return begun.error();
   const double wanted = kMargin * tolerance_255;
-  // Errors of detail and of step alone; both stop where they are too great by themselves.
-  std::vector<Trial> byDetail, byStep;
-  for (std::size_t d = 0; d < kDetails; ++d) {
-    const auto t = trial(d, kFineStep);
+  const auto details = alone(std::size(kDetailShares), 1.5 * wanted, [&](std::size_t d) { return trial({d, 0, 0}); });
+  if (!details) return details.error();
+  const auto steps = alone(kStepCount, 1.5 * wanted, [&](std::size_t s) { return trial({0, s, 0}); });
+  if (!steps) return steps.error();
+  const auto spreads = alone(drawn == DrawnAs::Whole ? kSpreadCount : 1, 1.5 * wanted, [&](std::size_t p) { return trial.ofSpread(p); });
+  if (!spreads) return spreads.error();
+  // A picture has the last word. Errors also cancel: a little over is worth a look.
+  std::vector<Candidate> denied;
+  std::optional<Candidate> picked;
+  for (const Predicted& p : combinations(*details, *steps, *spreads)) {
+    if (picked || int(denied.size()) == kMostDenied) break;
+    const auto worse = [&](const Candidate& d) { return p.candidate.coarserThan(d); };
+    if (p.error_255 > 1.15 * wanted || std::any_of(denied.begin(), denied.end(), worse)) continue;
+    const auto t = trial(p.candidate);
     if (!t) return t.error();
-    byDetail.push_back(*t);
-    if (t->error_255 > 1.5 * wanted) break;
+    if (t->error_255 <= wanted) picked = p.candidate;
+    else denied.push_back(p.candidate);
   }
-  for (std::size_t s = 0; s < kStepCount; ++s) {
-    const auto t = trial(0, s);
-    if (!t) return t.error();
-    byStep.push_back(*t);
-    if (t->error_255 > 1.5 * wanted) break;
-  }
-  // Together: independent errors add in square, samples multiply. Cheapest first; a picture has the last word.
-  std::vector<Candidate> candidates;
-  for (std::size_t d = 0; d < byDetail.size(); ++d)
-    for (std::size_t s = 0; s < byStep.size(); ++s)
-      candidates.push_back({d, s, std::hypot(byDetail[d].error_255, byStep[s].error_255),
-                            byDetail[d].cost * byStep[s].cost / std::max(byStep[kFineStep].cost, 1e-9)});
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-  std::size_t detail = 0, step = kFineStep;
-  int checks = 0;
-  choice.kept = false;
-  for (const Candidate& c : candidates) {
-    if (c.error_255 > 1.15 * wanted || checks == kMostChecks) continue;  // errors also cancel: a little over is worth a look
-    const auto t = trial(c.detail, c.step);
-    if (!t) return t.error();
-    ++checks;
-    if (t->error_255 > wanted) continue;
-    detail = c.detail, step = c.step;
-    choice.kept = true;
-    break;
-  }
-  const auto last = trial(detail, step);
+  if (!picked) picked = trial.cheapest(wanted);
+  choice.kept = picked.has_value();
+  const auto last = trial(picked.value_or(kFinest));
   if (!last) return last.error();
-  if (!choice.kept) choice.kept = last->error_255 <= wanted;
-  choice.quality = candidate(renderer, view, kDetailShares[detail], kSteps[step]);
+  choice.quality = marchOf(renderer, view, picked.value_or(kFinest));
   choice.estimate_255 = last->error_255, choice.cost = last->cost;
-  choice.finest_255 = byStep[kFineStep].error_255;
+  choice.finest_255 = (*steps)[0].error_255;
   choice.tried = trial.count(), choice.pixels = trial.pixels();
   if (auto used = renderer.setMarch(choice.quality); !used) return used.error();
   return choice;
@@ -191,7 +249,7 @@ Result<KeptTolerance> keepTolerance(Renderer& renderer, const View& view, double
   const auto truth = drawTruth(renderer, view);
   if (!truth) return truth.error();
   for (double aim = tolerance_255; kept.rounds < kMostRounds; ++kept.rounds) {
-    auto choice = chooseMarch(renderer, view, exposure_ev, aim);
+    auto choice = chooseMarch(renderer, view, exposure_ev, aim, DrawnAs::Whole);
     if (!choice) return choice.error();
     kept.choice = *choice;
     const auto reached = reachedError(renderer, view, exposure_ev, *truth, choice->quality);

@@ -525,9 +525,10 @@ Result<void> Renderer::resize(int width, int height) {
 
 const gpu::Texture& Renderer::shown() const { return impl_->composite->display(); }
 
-void Renderer::preview(const View& view) {
+FrameCounters Renderer::preview(const View& view) {
   Impl& r = *impl_;
   r.drawAside(view, [&] { r.clouds->preview(r.scene, r.seen_ev(view)); });
+  return r.counted();
 }
 
 Result<FrameCounters> Renderer::preview(const View& view, std::span<const glm::ivec2> pixels) {

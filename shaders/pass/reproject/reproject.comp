@@ -1,13 +1,13 @@
 // Fills the pixels that this frame's sixteenth does not march from the last frame's clouds, moved by their own distance and the camera's
 // motion, and corrected by what the marched pixels around have changed. Pixels without valid history go to a list that is marched at once.
 #include "lib/as_seen.glsl"
+#include "lib/pixel_list.glsl"
 #include "lib/reproject.glsl"
 #include "welkin/shared/counters.glsl.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = WK_CAMERA_BINDING) uniform CameraUniforms { CameraBlock camera; };
 layout(std430, binding = WK_COUNTERS_BINDING) buffer CounterBuffer { Counters counters; };
-layout(std430, binding = WK_PIXELS_BINDING) buffer PixelList { uint groups, one, one_, count, pixels[]; };
 layout(binding = WK_CLOUD_CHANGE_UNIT) uniform sampler2D u_change;   // of the pixel of each 4 x 4 that was marched: new minus history
 layout(rgba16f, binding = 0) uniform writeonly image2D u_light;
 layout(rg32f, binding = 1) uniform writeonly image2D u_aux;
@@ -38,10 +38,7 @@ float resampleError(vec2 at) {
   return max(contrast.x, contrast.y) * max(off.x, off.y);
 }
 
-void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, u_size))) return;
-  if (all(equal(pixel & 3, u_offset))) return;  // marched this frame
+void fill(ivec2 pixel) {
   History h = findHistory(pixel, pixelDirection(camera, pixel, u_size), u_size);
   bool valid = h.valid;
   bool moving = !h.still || length(u_move) > 0.0;  // what is far away stays where it is, but something near may come before it
@@ -66,14 +63,20 @@ void main() {
   float most = min(kParallax * h.expected / max(length(u_move), 1e-3), kRound);
   if (float(age) > most || most < kLeastAge) valid = false;
   if (!valid) {
-    uint slot = atomicAdd(count, 1u);
-    pixels[slot] = uint(pixel.x) | (uint(pixel.y) << 16u);
-    if ((slot & 63u) == 0u) atomicAdd(groups, 1u);
-    atomicAdd(counters.rejectedPixels, 1u);
+    listPixel(pixel);
     return;
   }
   imageStore(u_light, pixel, light);
   imageStore(u_age, pixel, uvec4(min(age, 255u)));
   imageStore(u_aux, pixel, h.still ? texelFetch(u_oldAux, pixel, 0)
                                    : vec4(h.distance, textureLod(u_oldAux, h.at / vec2(u_size), 0.0).y, 0.0, 0.0));
+}
+
+void main() {
+  beginList();
+  ivec2 pixel = ivec2(gl_WorkGroupID.xy) * 8 + listPlace();
+  bool marched = all(equal(pixel & 3, u_offset));  // this frame
+  if (all(lessThan(pixel, u_size)) && !marched) fill(pixel);
+  uint listed = endList();
+  if (gl_LocalInvocationIndex == 0u && listed > 0u) atomicAdd(counters.rejectedPixels, listed);
 }

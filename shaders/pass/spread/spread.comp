@@ -1,9 +1,8 @@
 // Between marched pixels, `u_spacing` apart: what lies halfway is put between them where they look alike, and else goes to a list that is marched.
 #include "lib/as_seen.glsl"
-#include "welkin/shared/bindings.glsl.h"
+#include "lib/pixel_list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = WK_PIXELS_BINDING) buffer PixelList { uint groups, one, one_, count, pixels[]; };
 layout(rgba16f, binding = 0) uniform image2D u_light;
 #if OPT_AUX
 layout(rg32f, binding = 1) uniform image2D u_aux;
@@ -35,18 +34,17 @@ Marched halfway(Marched a, Marched b) {
   return Marched(0.5 * (a.light + b.light), vec2(mix(a.aux.x, b.aux.x, share), 0.5 * (a.aux.y + b.aux.y)), vec2(0.0));
 }
 
-// How unlike they look: in brightness, in transmittance, in the shadow on what lies behind.
-float apart(vec2 low, vec2 high, vec2 shadow) {
-  vec2 d = high - low;
-  return max(max(d.x, d.y), 0.5 * abs(shadow.y - shadow.x));
+// How unlike four look: in brightness, in transmittance, in the shadow on what lies behind.
+float apart(Marched a, Marched b, Marched c, Marched d) {
+  vec2 seen = max(max(a.seen, b.seen), max(c.seen, d.seen)) - min(min(a.seen, b.seen), min(c.seen, d.seen));
+  float shadow = max(max(a.aux.y, b.aux.y), max(c.aux.y, d.aux.y)) - min(min(a.aux.y, b.aux.y), min(c.aux.y, d.aux.y));
+  return max(max(seen.x, seen.y), 0.5 * shadow);
 }
 
-void put(ivec2 pixel, Marched value, float unlike, bool inside) {
+void put(ivec2 pixel, Marched value, bool alike) {
   if (any(greaterThanEqual(pixel, u_size))) return;
-  if (!inside || !(unlike <= u_spread)) {  // a NaN is marched, and counted there
-    uint slot = atomicAdd(count, 1u);
-    pixels[slot] = uint(pixel.x) | (uint(pixel.y) << 16u);
-    if ((slot & 63u) == 0u) atomicAdd(groups, 1u);
+  if (!alike) {
+    listPixel(pixel);
     return;
   }
   imageStore(u_light, pixel, value.light);
@@ -58,16 +56,20 @@ void put(ivec2 pixel, Marched value, float unlike, bool inside) {
 #endif
 }
 
-void main() {
-  ivec2 at = ivec2(gl_GlobalInvocationID.xy) * u_spacing;
-  if (any(greaterThanEqual(at, u_size))) return;
+void between(ivec2 at) {
   int whole = u_spacing, half_ = u_spacing / 2;
   Marched a = marched(at), b = marched(at + ivec2(whole, 0)), c = marched(at + ivec2(0, whole)), d = marched(at + whole);
   bool right = at.x + whole < u_size.x, below = at.y + whole < u_size.y;
-  vec2 shadows = vec2(min(min(a.aux.y, b.aux.y), min(c.aux.y, d.aux.y)), max(max(a.aux.y, b.aux.y), max(c.aux.y, d.aux.y)));
-  float all = apart(min(min(a.seen, b.seen), min(c.seen, d.seen)), max(max(a.seen, b.seen), max(c.seen, d.seen)), shadows);
-  Marched top = halfway(a, b), left = halfway(a, c);
-  put(at + ivec2(half_, 0), top, apart(min(a.seen, b.seen), max(a.seen, b.seen), vec2(a.aux.y, b.aux.y)), right);
-  put(at + ivec2(0, half_), left, apart(min(a.seen, c.seen), max(a.seen, c.seen), vec2(a.aux.y, c.aux.y)), below);
-  put(at + half_, halfway(top, halfway(c, d)), all, right && below);
+  bool alike = apart(a, b, c, d) <= u_spread;  // a NaN is like nothing: it is marched, and counted there
+  Marched top = halfway(a, b);
+  put(at + ivec2(half_, 0), top, alike && right);
+  put(at + ivec2(0, half_), halfway(a, c), alike && below);
+  put(at + half_, halfway(top, halfway(c, d)), alike && right && below);
+}
+
+void main() {
+  beginList();
+  ivec2 at = (ivec2(gl_WorkGroupID.xy) * 8 + listPlace()) * u_spacing;
+  if (all(lessThan(at, u_size))) between(at);
+  endList();
 }

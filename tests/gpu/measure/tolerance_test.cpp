@@ -35,16 +35,20 @@ TEST_F(ToleranceChoice, KeepsWhatIsAskedAndCostsLessForMore) {
     lastCost = kept->choice.cost, lastReached = kept->reached_255;
   }
   EXPECT_GT(lastReached, 0.5);  // not always the finest
-  const auto again = chooseMarch(*renderer, view, 0, 9);
+  const auto again = chooseMarch(*renderer, view, 0, 9, DrawnAs::Whole);
   ASSERT_TRUE(again.ok());
   EXPECT_EQ(again->cost, lastCost);  // counted, not timed
+  EXPECT_GT(again->quality.spread, 0);
+  const auto flown = chooseMarch(*renderer, view, 0, 9, DrawnAs::Reprojected);
+  ASSERT_TRUE(flown.ok());
+  EXPECT_EQ(flown->quality.spread, 0);
 }
 
 TEST_F(ToleranceChoice, SaysWhatCannotBeKept) {
   const View view = viewAt(45, 0, 9000, 0, -12);
   const auto renderer = rendererOf(*context, view);
   ASSERT_NE(renderer, nullptr);
-  const auto choice = chooseMarch(*renderer, view, 0, 0.01);
+  const auto choice = chooseMarch(*renderer, view, 0, 0.01, DrawnAs::Whole);
   ASSERT_TRUE(choice.ok());
   EXPECT_FALSE(choice->kept);
   EXPECT_EQ(choice->quality.step, kSteps[0]);
@@ -56,7 +60,7 @@ TEST_F(ToleranceChoice, WithoutCloudsThereIsNothingToPick) {
   scene.clouds.reset();
   auto renderer = Renderer::create(*context, scene, {.width = 32, .height = 18});
   ASSERT_TRUE(renderer.ok());
-  const auto choice = chooseMarch(**renderer, viewAt(0, 0, 1000, 0, 0), 0, 1);
+  const auto choice = chooseMarch(**renderer, viewAt(0, 0, 1000, 0, 0), 0, 1, DrawnAs::Whole);
   ASSERT_TRUE(choice.ok());
   EXPECT_TRUE(choice->kept);
   EXPECT_EQ(choice->tried, 0);

@@ -36,6 +36,8 @@ inline constexpr const char* kToneCurveFunctions[] = {"acesFilmic", "reinhardExt
 
 inline std::vector<ShaderVariant> shaderTable() {
   std::vector<ShaderVariant> table{{"pass/maps/build.comp", {}}, {"pass/reproject/reproject.comp", {}}};
+  for (const char* aux : {"0", "1"})
+    for (const char* history : {"0", "1"}) table.push_back({"pass/spread/spread.comp", {{"OPT_AUX", aux}, {"OPT_HISTORY", history}}});
   for (const char* textures : {"1", "2"}) {
     for (const char* source : {"lib/clouds/layers.glsl", "lib/clouds/sphere.glsl"})
       for (const char* one : {"0", "1"})

@@ -17,10 +17,10 @@ TEST(Sweep, axesAreReadWithCare) {
   EXPECT_EQ(axis->name, "step");
   EXPECT_THAT(axis->values, ElementsAre("0.1", "0.2"));
   for (const char* right : {"integrator=simpson-3/8", "step-rule=node", "budget=64MiB", "depth=24", "detail=0", "frames=still",
-                            "brick-bits=8", "light=0.5", "skip-empty=0"})
+                            "brick-bits=8", "light=0.5", "skip-empty=0", "spread=12.5"})
     EXPECT_TRUE(parseSweep(right).ok()) << right;
   for (const char* wrong : {"", "step", "step=", "step=1,", "step=nan", "step=1e-9", "colour=red", "integrator=euler", "depth=25",
-                            "depth=1.5", "brick-bits=4", "budget=1", "light=0", "skip-empty=2", "frames=all"})
+                            "depth=1.5", "brick-bits=4", "budget=1", "light=0", "skip-empty=2", "frames=all", "spread=256"})
     EXPECT_FALSE(parseSweep(wrong).ok()) << wrong;
 }
 

@@ -19,9 +19,10 @@ Result<Stage> openStage(const Scene& scene, const RenderSettings& settings, cons
 // Residency settled, then every pixel marched: the picture that `welkin render` shows. Error only when `progress` stopped it.
 Result<FrameStats> drawConverged(Renderer& renderer, const View& view, const std::function<bool(double)>& progress = {});
 
-// Times of one picture of the tree as it is, every pixel marched, until the GL has finished. The worker has nothing to do meanwhile.
+// Times of one picture of the tree as it is, until the GL has finished. The worker has nothing to do meanwhile.
 struct PictureTime {
   double wall_ms, cpu_ms;
+  FrameCounters counters;  // what its rays met
 };
 PictureTime timePicture(Renderer& renderer, const View& view);
 

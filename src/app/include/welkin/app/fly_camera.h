@@ -40,6 +40,8 @@ class FlyCamera {
   const View& view() const { return view_; }
   // Stands still there, at least at eye height above the ground. False, and nothing changes: it is not of finite numbers.
   bool setView(const View& view);
+  // The lens alone, while flying too. Nothing changes if it is out of 0..180.
+  void setLens(double fov_deg, std::optional<double> exposure_ev);
   void setPlanetRadius(double radius_m);
   // Height of the ground above the planet's radius, m, in a direction from its centre; must be finite. Default: 0.
   void setGround(std::function<double(const glm::dvec3& direction)> altitude_m);

@@ -71,6 +71,7 @@ struct Start {
   Size size;
   double time_s = 0;
   std::optional<double> exposure_ev;  // of a picture
+  std::vector<std::string> notes;     // of a picture: what it did not say; logged already
 };
 // `viewName` empty: the only view, or "default", or the first one by name; a picture's own. The error names the views that are there.
 Result<Start> loadStart(const std::filesystem::path& file, const std::string& viewName);

@@ -27,16 +27,22 @@ struct PictureState {
   double exposure_ev = 0;  // of the tone-mapped picture; an EXR is linear, before exposure
   std::string build;
   std::map<std::filesystem::path, std::string> data;  // data file -> sha256 or kMissing
+  std::vector<std::string> notes;                     // one line for each text that was missing and what stands in its place
 };
 
 using Texts = std::vector<std::pair<std::string, std::string>>;  // "welkin:scene" -> ...
 
-// State as texts and back. Data files are written relative to `folder`, the picture's.
+// The thesis program's pictures carry its camera under keys that begin so.
+constexpr const char* kThesisKeys = "mulen_";
+
+// State as texts and back. Data files are written relative to `folder`, the picture's. An older version's picture may lack anything but the
+// scene and the view: what is missing is noted, and of the thesis program's pictures everything but the camera.
 Texts textsFromState(const PictureState& state, const std::filesystem::path& folder);
 Result<PictureState> stateFromTexts(const Texts& texts, const std::filesystem::path& picture);
 
-// Every data file of the state must be there with the same contents; a file that moved along with a checkout is looked for below the
-// working folder too, and the scene corrected. The error names the first file that is missing or different.
+// Every data file of the state must be there with the same contents. Pictures move: a file is looked for where the picture says, in the
+// picture's folder and its data/, below the working folder, and in the program's own data/; the scene is corrected. The error names the
+// first file that is missing or different.
 Result<void> findData(PictureState& state, const std::filesystem::path& picture);
 
 Result<std::string> pngBytes(const Image8& image, const Texts& texts);  // what writePng writes
@@ -47,7 +53,7 @@ Result<void> writeExr(const std::filesystem::path& file, const ImageF& image, co
 
 struct PictureFile {
   std::variant<Image8, ImageF> pixels;
-  Texts texts;  // those of Welkin only
+  Texts texts;  // those of Welkin and of the thesis program only
 };
 enum class PictureKind { None, Png, Exr };
 PictureKind kindOfBytes(std::string_view head);                      // by the first bytes

@@ -96,10 +96,10 @@ class Renderer {
   Result<void> setOutput(const Output& output);
   // Pictures of this size from now on. Tree, light and exposure stay; the picture's history comes along, stretched.
   Result<void> resize(int width, int height);
-  // Draws this view from the tree as it is now, every pixel marched; no edit is applied; history, frame count and metered exposure
-  // stay. For comparing: image() and radiance() then return this picture.
-  void preview(const View& view);
-  // The same for some pixels only (x, y from the top left); the others show what was there before. What these rays met is counted.
+  // Draws this view from the tree as it is now, without history; no edit is applied; history, frame count and metered exposure
+  // stay. For comparing: image() and radiance() then return this picture. What its rays met is counted.
+  FrameCounters preview(const View& view);
+  // The same for some pixels only (x, y from the top left), every one marched; the others show what was there before.
   Result<FrameCounters> preview(const View& view, std::span<const glm::ivec2> pixels);
   // For the reference (docs/reference.md): the view's rays, the tree as preview(view) would see it (clouds only), and preview() with what
   // each pixel's ray through the clouds brings given, width * height from the top row, instead of marched.

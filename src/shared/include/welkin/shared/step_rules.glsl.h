@@ -13,14 +13,14 @@ WK_CONST uint kStepRules = 5u;
 // The optical rule's constants, found by measurement (docs/decisions/0014). What a thin brick may err falls with its depth, and by a power of its
 // segments: the same number of samples errs least in all if a brick of depth x gets a power of x under 1, here its cube root. Behind cloud that
 // hides most, errors hide too.
-WK_CONST float kThinCount = F(1.6);
+WK_CONST float kThinCount = F(1.5);
 WK_CONST float kLeastCount = F(0.05);
 // Clouds lie in layers: along rays that go up or down density changes faster than along level ones.
-WK_CONST float kLevelCount = F(.32);
-WK_CONST float kUprightCount = F(1.9);
+WK_CONST float kLevelCount = F(.268);
+WK_CONST float kUprightCount = F(1.95);
 // Where nodes are coarser than pixels show (the budget ends, or the depth), a segment's error covers many pixels and is seen: finer there.
-WK_CONST float kCoarseShare = F(.17);
-WK_CONST float kCoarseMost = F(1.25);
+WK_CONST float kCoarseShare = F(.12);
+WK_CONST float kCoarseMost = F(1.65);
 
 struct StepPlace {
   float span_m;         // way through the brick
