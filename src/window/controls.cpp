@@ -45,7 +45,7 @@ void gamePad(app::FlyInput& in, double dt_s) {
 
 }  // namespace
 
-const std::array<KeyLine, 17> kKeyLines{{{"W A S D", "forward, left, back, right"},
+const std::array<KeyLine, 19> kKeyLines{{{"W A S D", "forward, left, back, right"},
                                          {"E, Space", "up"},
                                          {"Q, Shift", "down"},
                                          {"Z, X", "roll"},
@@ -59,6 +59,8 @@ const std::array<KeyLine, 17> kKeyLines{{{"W A S D", "forward, left, back, right
                                          {"Tab", "panels on and off"},
                                          {"1 to 9", "open or close a panel"},
                                          {"F11", "full screen on and off"},
+                                         {"R", "record the flight; again: stop and save it"},
+                                         {"Ctrl Z, Ctrl Shift Z", "undo, redo"},
                                          {"F12, Shift F12", "picture as seen; converged picture"},
                                          {"H or ?", "these keys"},
                                          {"Ctrl Q", "close the window"}}};
@@ -70,8 +72,8 @@ void Controls::fly(Model& model, Window& window, const Events& events, bool mous
     in.move = {axis(w, GLFW_KEY_D, GLFW_KEY_A),
                std::min(1, glfwGetKey(w, GLFW_KEY_E) + glfwGetKey(w, GLFW_KEY_SPACE)) - std::min(1, glfwGetKey(w, GLFW_KEY_Q) + glfwGetKey(w, GLFW_KEY_LEFT_SHIFT)),
                axis(w, GLFW_KEY_S, GLFW_KEY_W)};
-    in.roll = axis(w, GLFW_KEY_X, GLFW_KEY_Z);
     in.fast = held(w, GLFW_KEY_LEFT_CONTROL) || held(w, GLFW_KEY_RIGHT_CONTROL);
+    in.roll = in.fast ? 0 : axis(w, GLFW_KEY_X, GLFW_KEY_Z);  // Ctrl Z undoes
     in.turn_rad = glm::dvec2(axis(w, GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(w, GLFW_KEY_UP, GLFW_KEY_DOWN)) * (kTurnRate_rad_s * dt_s);
   }
   gamePad(in, dt_s);
@@ -112,6 +114,13 @@ void Controls::press(Model& model, Window& window, Press press) {
   if (key == GLFW_KEY_HOME) model.camera.flyTo(model.home);
   if (key == GLFW_KEY_F11) window.toggleFullScreen();
   if (key == GLFW_KEY_F12) (press.mods & GLFW_MOD_SHIFT ? model.wanted.convergedPicture : model.wanted.picture) = true;
+  if (key == GLFW_KEY_Z && (press.mods & GLFW_MOD_CONTROL)) press.mods & GLFW_MOD_SHIFT ? model.redo() : model.undo();
+  if (key == GLFW_KEY_R) {
+    const bool begins = model.tape != Model::Tape::Recording;
+    if (begins) model.recording = {}, model.tape_s = 0;
+    else model.wanted.savePath = true;
+    model.tape = begins ? Model::Tape::Recording : Model::Tape::Idle;
+  }
   if (key == GLFW_KEY_Q && (press.mods & GLFW_MOD_CONTROL)) window.close();
 }
 

@@ -23,6 +23,6 @@ class Controls {
 struct KeyLine {
   const char *keys, *what;
 };
-extern const std::array<KeyLine, 17> kKeyLines;
+extern const std::array<KeyLine, 19> kKeyLines;
 
 }  // namespace welkin::window

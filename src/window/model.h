@@ -8,8 +8,11 @@
 #include <string>
 
 #include "frame_times.h"
-#include "render_scale.h"
+#include "welkin/window/render_scale.h"
+#include "welkin/app/edit_history.h"
 #include "welkin/app/fly_camera.h"
+#include "welkin/app/recorder.h"
+#include "welkin/app/settings.h"
 #include "welkin/render/renderer.h"
 
 namespace welkin::window {
@@ -21,7 +24,7 @@ struct Wanted {  // since the last frame
   bool march = false, air = false, output = false;  // what the renderer changes at once
   bool rebuild = false;                             // what needs a new one
   bool picture = false, convergedPicture = false;
-  std::optional<std::filesystem::path> load, saveScene;
+  bool saveScene = false, savePath = false;
 };
 
 struct Model {
@@ -33,6 +36,13 @@ struct Model {
   double time_s = 0, timeSpeed = 1;
   bool playing = false;
   bool reprojection = true;
+
+  app::Settings settings;
+  bool settingsChanged = false;
+  enum class Tape { Idle, Recording, Replaying };
+  Tape tape = Tape::Idle;
+  app::Recording recording;
+  double tape_s = 0;  // since the recording, or the replay, began
 
   RenderScale scale;
   app::Size window, picture;
@@ -57,8 +67,15 @@ struct Model {
     v.exposure_ev = exposure_ev;
     return v;
   }
+  app::EditHistory<Scene> edits{Scene{}};
+  void runTape(double dt_s);  // a recording or a replay goes on
+  void keepEdits();  // what is finished can be undone
+  void undo();
+  void redo();
   // Begins anew with this scene and view.
   void start(Scene begun, const View& view);
+  void show(const Scene& other);  // an earlier or later state of this one
+
   void say(const std::string& text, bool bad = false);  // in the window and in the log
 };
 

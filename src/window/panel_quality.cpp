@@ -50,18 +50,10 @@ void exposurePanel(Model& model) {
     line("reached", fmt::format("{:+.2f} EV", model.stats.exposure_ev));
   } else {
     double ev = *model.exposure_ev;
-    if (number("exposure", ev, model.home.exposure_ev.value_or(was.exposure_ev.value_or(0)), {-12, 12, "%+.2f EV"}, "stops over the base exposure").now) model.exposure_ev = ev;
+    if (number("exposure", ev, model.home.exposure_ev.value_or(was.exposure_ev.value_or(0)), {-12, 12, "%+.2f EV"}, "stops over the base exposure").now) model.exposure_ev = output.exposure_ev = ev;
   }
   int curve = int(output.toneCurve);
   if (choice("tone curve", curve, kToneCurveNames, "how linear light becomes colours of the display")) output.toneCurve = ToneCurve(curve), model.wanted.output = true;
-}
-
-void timePanel(Model& model) {
-  if (ImGui::Button(model.playing ? "Pause" : "Play")) model.playing = !model.playing;
-  ImGui::SameLine();
-  if (ImGui::Button("To 0 s")) model.time_s = 0;
-  number("speed", model.timeSpeed, 1, {0.01, 10'000, "x %.3g", true}, "of the scene's time");
-  number("time", model.time_s, 0, {0, 86'400, "%.2f s"}, "of the scene; it is stored with pictures. Clouds do not change with it yet");
 }
 
 }  // namespace welkin::window

@@ -2,6 +2,8 @@
 #include <ctime>
 
 #include "panels.h"
+#include "welkin/app/geographic.h"
+#include "welkin/app/sun_place.h"
 #include "welkin/physics/scene_io.h"
 #include "welkin/physics/sun_position.h"
 #include "widgets.h"
@@ -31,18 +33,18 @@ void sunFields(Model& model) {
   };
   field("sun over latitude", at.latitude_deg, was.latitude_deg, {-90, 90, "%.1f deg"}, "where the sun stands in the zenith");
   field("sun over longitude", at.longitude_deg, was.longitude_deg, {-180, 180, "%.1f deg"}, "15 degrees are an hour");
-  if (ImGui::Button("Sun as now")) {
+  const GeographicView here = app::toGeographic(model.camera.view(), model.scene.planet.radius_m);
+  app::SunInSky seen = app::sunInSky(sun.direction_planet, here.latitude_deg, here.longitude_deg);
+  const app::SunInSky before = app::sunInSky(loaded.direction_planet, here.latitude_deg, here.longitude_deg);
+  const bool sky = number("sun elevation here", seen.elevation_deg, before.elevation_deg, {-90, 90, "%.1f deg"}, "over the horizon below the camera").now |
+                   number("sun azimuth here", seen.azimuth_deg, before.azimuth_deg, {0, 360, "%.1f deg"}, "clockwise from north").now;
+  let = let || finishedEditIs("sun elevation here") || finishedEditIs("sun azimuth here");
+  if (press("Sun as now", "where the sun stands over the Earth at this moment")) {
     const double days = double(std::time(nullptr)) / 86400 - 10957.5;  // from 1970-01-01 00:00 to 2000-01-01 12:00 UTC
     const SubsolarPoint now = subsolarPoint(days);
     at = {now.latitude_deg, now.longitude_deg}, moved = let = true;
   }
-  explain("where the sun stands over the Earth at this moment");
-  ImGui::SameLine();
-  if (ImGui::Button("Noon here")) {
-    const glm::dvec3 here = model.camera.view().position_m;
-    at.longitude_deg = std::atan2(here.y, here.x) / kDegree, moved = let = true;
-  }
-  explain("the sun over the camera's longitude");
+  if (sky) sun.direction_planet = app::sunDirection(seen, here.latitude_deg, here.longitude_deg);
   if (moved) sun.direction_planet = directionTo(at.latitude_deg, at.longitude_deg);
   if (let) model.wanted.air = true;  // light of clouds that is there needs a new start: the viewer sees to it
   double factor = sun.irradiance[1];
@@ -130,8 +132,11 @@ void scenePanel(Model& model) {
     cloudFields(model);
     ImGui::TreePop();
   }
-  if (ImGui::Button("Save scene")) model.wanted.saveScene = "welkin-scene.json";
-  explain("as welkin-scene.json in the working folder; the present view becomes its view \"default\"");
+  if (press("Save scene", "as welkin-scene.json, never over another file; the present view becomes its view \"default\"")) model.wanted.saveScene = true;
+  ImGui::SameLine();
+  if (press("Undo", "Ctrl Z") ) model.undo();
+  ImGui::SameLine();
+  if (press("Redo", "Ctrl Shift Z")) model.redo();
 }
 
 }  // namespace welkin::window

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "controls.h"
+#include "widgets.h"
 #include "welkin/app/geographic.h"
 #include "welkin/gpu/timer.h"
 
@@ -104,6 +105,7 @@ void help(Model& model) {
 }  // namespace
 
 void drawInterface(Model& model) {
+  beginFields();
   if (model.sidebar) sidebar(model);
   status(model);
   message(model);

@@ -1,4 +1,4 @@
-#include "render_scale.h"
+#include "welkin/window/render_scale.h"
 
 #include <algorithm>
 #include <cmath>

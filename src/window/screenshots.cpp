@@ -1,10 +1,21 @@
 #include "screenshots.h"
 
-#include "shot_files.h"
 #include "welkin/app/checksum.h"
 #include "welkin/app/draw.h"
+#include "welkin/app/geographic.h"
+#include "welkin/app/places.h"
 
 namespace welkin::window {
+namespace {
+
+Result<std::filesystem::path> newFile(const std::filesystem::path& folder, const View& view, const Scene& scene,
+                                      const std::vector<std::string>& extensions) {
+  return app::reserveFiles(folder, app::shotName(app::localNow(), app::toGeographic(view, scene.planet.radius_m)), extensions);
+}
+
+std::filesystem::path with(std::filesystem::path stem, const char* extension) { return stem += extension; }
+
+}  // namespace
 
 Screenshots::Screenshots(std::filesystem::path folder, std::string gpu)
     : folder_(folder.empty() ? std::filesystem::path(".") : std::move(folder)), gpu_(std::move(gpu)), thread_([this] { work(); }) {}
@@ -28,10 +39,10 @@ void Screenshots::takeAsSeen(Image8 image, const Renderer& renderer, const View&
   app::PictureState state = app::stateOf(renderer, view, exposure_ev, {image.width, image.height}, time_s, false, {});
   add([this, image = std::move(image), state = std::move(state)]() mutable -> Result<std::string> {
     state.data = app::dataChecksums(state.scene);
-    const auto file = newShotFile(folder_, state.view, state.scene.planet.radius_m, {".png"});
+    const auto file = newFile(folder_, state.view, state.scene, {".png"});
     if (!file) return file.error();
-    if (auto written = app::writePng(*file, image, app::textsFromState(state, folder_)); !written) return written.error();
-    return "wrote " + file->string();
+    if (auto written = app::writePng(with(*file, ".png"), image, app::textsFromState(state, folder_)); !written) return written.error();
+    return "wrote " + with(*file, ".png").string();
   });
 }
 
@@ -46,12 +57,11 @@ void Screenshots::takeConverged(const Scene& scene, const View& view, app::Size 
     if (!stats) return stats.error();
     const auto state = app::stateOf(*stage->renderer, view, stats->exposure_ev, size, time_s, true, app::dataChecksums(scene));
     const auto texts = app::textsFromState(state, folder_);
-    auto file = newShotFile(folder_, view, scene.planet.radius_m, {".png", ".exr"});
+    const auto file = newFile(folder_, view, scene, {".png", ".exr"});
     if (!file) return file.error();
-    if (auto written = app::writePng(*file, stage->renderer->image(), texts); !written) return written.error();
-    const std::string name = file->string();
-    if (auto written = app::writeExr(file->replace_extension(".exr"), stage->renderer->radiance(), texts); !written) return written.error();
-    return "wrote " + name + " and .exr, converged";
+    if (auto written = app::writePng(with(*file, ".png"), stage->renderer->image(), texts); !written) return written.error();
+    if (auto written = app::writeExr(with(*file, ".exr"), stage->renderer->radiance(), texts); !written) return written.error();
+    return "wrote " + with(*file, ".png").string() + " and .exr, converged";
   });
 }
 

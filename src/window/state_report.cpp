@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "welkin/physics/scene_io.h"
+#include "widgets.h"
 
 namespace welkin::window {
 
@@ -30,6 +31,9 @@ std::string stateJson(const Model& m, const Counts& c) {
                    {"sidebar", m.sidebar},
                    {"help", m.help},
                    {"panels", open},
+                   {"fields", fieldPlaces()},
+                   {"quality", {{"step", m.scene.quality.step}, {"step_rule", kStepRuleNames[std::size_t(m.scene.quality.stepRule)]},
+                                {"skip_empty", m.scene.quality.skipEmpty}, {"budget_bytes", m.scene.quality.budget_bytes}}},
                    {"message", m.message},
                    {"frame_rate", m.frameRate},
                    {"frame_ms", m.times.frame().median()},

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <future>
 
 #include "controls.h"
 #include "interface.h"
@@ -11,31 +13,34 @@
 #include "renderer_loader.h"
 #include "screenshots.h"
 #include "state_report.h"
+#include "welkin/app/places.h"
+#include "welkin/app/restore.h"
 #include "welkin/app/stop.h"
 #include "welkin/core/files.h"
 #include "welkin/core/log.h"
-#include "welkin/gpu/program.h"
 #include "welkin/physics/scene_io.h"
 
 namespace welkin::window {
 namespace {
 
-constexpr app::Size kWindow{1280, 800};
 constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25;
+constexpr double kPathStep_s = 1.0 / 30;
 constexpr double kSpareDetail = 1.4;  // for the next step of a flight
 constexpr double kBricks_ms = 12;  // of a frame
 constexpr std::uint32_t kFirstBricks = 128, kLeastBricks = 64, kMostBricks = 8192;
 
-std::filesystem::path earth() { return std::filesystem::path(gpu::shaderFolder()).parent_path() / "scenes" / "earth.json"; }
+std::filesystem::path earth() { return app::programFolder() / "scenes" / "earth.json"; }
 
 class Viewer {
  public:
-  Viewer(const ViewOptions& options, app::Start&& start, Window& window, gpu::Context& context, double opened_ms)
+  Viewer(const ViewOptions& options, app::LoadedSettings&& settings, app::Start&& start, Window& window, gpu::Context& context, double opened_ms)
       : options_(options), window_(window), context_(context), interface_(window), glThread_(window.helper()), loader_(glThread_, context),
         shots_(options.shots, options.common.gpu), opened_ms_(opened_ms) {
     model_.device = context.device().renderer;
     model_.software = context.device().software;
     begin(std::move(start));
+    model_.settings = std::move(settings.settings);
+    if (!settings.note.empty()) model_.say(settings.note, true);
   }
 
   void run() {
@@ -45,6 +50,10 @@ class Viewer {
       const double now_ms = gpu::wall_ms(), dt_s = std::min((now_ms - last_ms) / 1000, kMostStep_s);
       last_ms = now_ms;
       frame(events, now_ms, dt_s);
+    }
+    if (!options_.common.size) {  // else it was asked for once
+      model_.settings.width = window_.size().width, model_.settings.height = window_.size().height;
+      keepSettings();
     }
     window_.hide();  // a renderer that is being made, and pictures that are being written, are finished unseen
     report();
@@ -65,6 +74,7 @@ class Viewer {
       if (!interface_.wantsKeys()) Controls::press(model_, window_, press);
     controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
     for (const auto& file : events.dropped) load(file);
+    model_.runTape(dt_s);
     if (model_.playing) model_.time_s += dt_s * model_.timeSpeed;
     model_.frameRate += (1 / std::max(dt_s, 1e-3) - model_.frameRate) * std::min(1.0, dt_s * 2);
     carryOut();
@@ -110,23 +120,22 @@ class Viewer {
 
   // What is asked for is done, or begun.
   void carryOut() {
-    Wanted wanted = std::exchange(model_.wanted, {});
-    if (wanted.load) load(*wanted.load);
-    if (wanted.saveScene) {
-      const auto saved = saveScene(model_.scene, *wanted.saveScene);
-      model_.say(saved ? "saved " + wanted.saveScene->string() : saved.error().message, !saved);
-    }
-    wanted.rebuild = wanted.rebuild || model_.wanted.rebuild;  // of load()
-    model_.wanted.rebuild = false;
-    if (renderer_ && !wanted.rebuild) {
+    takeLoaded();
+    model_.keepEdits();
+    const Wanted wanted = std::exchange(model_.wanted, {});
+    bool rebuild = wanted.rebuild;
+    if (wanted.saveScene) save("scene", writeScene());
+    if (wanted.savePath) save("path", writePath());
+    if (model_.settingsChanged) model_.settingsChanged = false, keepSettings();
+    if (renderer_ && !rebuild) {
       const auto done = [this](const Result<void>& r) {
         if (!r) model_.say(r.error().message, true);
       };
       if (wanted.march) done(renderer_->setMarch(model_.scene.quality));
       if (wanted.output) done(renderer_->setOutput(model_.scene.output));
-      if (wanted.air && !renderer_->setAir(model_.scene, Renderer::AirChange::Recompute)) wanted.rebuild = true;
+      if (wanted.air && !renderer_->setAir(model_.scene, Renderer::AirChange::Recompute)) rebuild = true;
     }
-    if (wanted.rebuild) loader_.begin(model_.scene, settings(), model_.view());
+    if (rebuild) loader_.begin(model_.scene, settings(), model_.view());
     if (auto made = loader_.take()) use(std::move(*made));
     model_.loading_s = loader_.busy() ? loader_.since_s() : -1;
     if (wanted.picture && renderer_ && drawn_)
@@ -161,14 +170,61 @@ class Viewer {
     for (const auto& note : renderer_->notes()) model_.say(note, true);
   }
 
+  void save(const char* what, const Result<std::filesystem::path>& file) {
+    model_.say(file ? fmt::format("wrote the {}: {}", what, file->string()) : file.error().message, !file);
+  }
+
+  std::filesystem::path folder() const { return options_.shots.empty() ? "." : options_.shots; }
+
+  Result<std::filesystem::path> writeScene() {
+    Scene scene = model_.scene;
+    scene.views["default"] = model_.view();
+    auto stem = app::reserveFiles(folder(), "welkin-scene", {".json"});
+    if (!stem) return stem.error();
+    const std::filesystem::path file = *stem += ".json";
+    if (auto saved = saveScene(scene, file); !saved) return saved.error();
+    return file;
+  }
+
+  Result<std::filesystem::path> writePath() {
+    auto path = model_.recording.path(kPathStep_s);
+    if (!path) return path.error();
+    path->name = model_.scene.name;
+    path->width = model_.window.width, path->height = model_.window.height;
+    const bool changed = model_.edits.canUndo() || app::kindOfName(model_.scene.file) != app::PictureKind::None;
+    return app::saveRecorded(std::move(*path), model_.scene, changed, folder(), "welkin-path");
+  }
+
+  void keepSettings() {
+    const auto file = app::settingsFile();
+    if (file.empty()) return;
+    if (auto saved = app::saveSettings(model_.settings, file); !saved) model_.say(saved.error().message, true);
+  }
+
+  // A thread reads it: the data of a picture may be large, and its checksums take their time.
   void load(const std::filesystem::path& file) {
-    auto start = app::loadStart(file, "");
-    if (!start) {
-      model_.say(start.error().message, true);
+    model_.say("reading " + file.filename().string());
+    loads_.push_back(std::async(std::launch::async, [file] { return app::restoreFrom(file); }));
+  }
+
+  void takeLoaded() {
+    if (loads_.empty() || loads_.front().wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    auto restored = loads_.front().get();
+    loads_.pop_front();
+    if (!restored) {
+      model_.say(restored.error().message, true);
       return;
     }
-    begin(std::move(*start));
-    model_.say("loaded " + file.filename().string());
+    const auto notes = restored->start.notes;
+    begin(std::move(restored->start));
+    if (restored->path) {
+      model_.recording = {};
+      for (std::size_t i = 0; i < restored->path->frames.size(); ++i)
+        model_.recording.add(double(i) * restored->path->timeStep_s, restored->path->frames[i].view, restored->path->frames[i].time_s);
+      model_.tape = Model::Tape::Replaying, model_.tape_s = 0;
+    }
+    model_.say(restored->path ? "a recorded flight of " + oneLine(model_.scene.name, 60) : "restored " + oneLine(model_.scene.name, 60));
+    for (const auto& note : notes) model_.say(note, true);
   }
 
   void draw(double dt_s) {
@@ -210,6 +266,7 @@ class Viewer {
   Screenshots shots_;
   Controls controls_;
   std::unique_ptr<Renderer> renderer_;
+  std::deque<std::future<Result<app::Restored>>> loads_;
   Counts counts_;
   double brick_ms_ = kBricks_ms / kFirstBricks;  // to make one and light it
   bool drawn_ = false;  // a picture of this renderer is there
@@ -221,15 +278,21 @@ class Viewer {
 
 Result<void> view(const ViewOptions& options) {
   const double opened_ms = gpu::wall_ms();
-  auto start = app::loadStart(options.input.empty() ? earth() : options.input, options.viewName.empty() && options.input.empty() ? "orbit" : options.viewName);
+  const bool theEarth = options.input.empty();
+  auto restored = app::restoreFrom(theEarth ? earth() : options.input);
+  if (!restored) return restored.error();
+  auto start = theEarth || !options.viewName.empty() ? app::loadStart(theEarth ? earth() : options.input, options.viewName.empty() ? "orbit" : options.viewName)
+                                                     : Result<app::Start>(std::move(restored->start));
   if (!start) return start.error();
-  auto window = Window::open(options.common.size.value_or(kWindow), "Welkin");
+  app::LoadedSettings settings = app::loadSettings(app::settingsFile());
+  const app::Size size = options.common.size.value_or(app::Size{settings.settings.width, settings.settings.height});
+  auto window = Window::open(size, "Welkin");
   if (!window) return window.error();
   auto context = gpu::Context::ofCurrent();
   if (!context) return Error{context.error().message + "; `welkin render` draws pictures without a window"};
   const auto& device = (*context)->device();
   log::info("OpenGL: {} ({}){}", device.renderer, device.version, device.software ? ", software: no GPU is used" : "");
-  Viewer(options, std::move(*start), **window, **context, opened_ms).run();
+  Viewer(options, std::move(settings), std::move(*start), **window, **context, opened_ms).run();
   return {};
 }
 

@@ -3,8 +3,26 @@
 #include <imgui_internal.h>  // ClearActiveID
 
 #include <algorithm>
+#include <utility>
 
 namespace welkin::window {
+namespace {
+
+// There is one interface, as in ImGui itself.
+std::string g_finished;
+std::map<std::string, std::array<float, 4>> g_places;
+
+void remember(const char* label) {
+  const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
+  if (ImGui::IsItemVisible()) g_places[label] = {a.x, a.y, b.x, b.y};
+}
+
+}  // namespace
+
+std::string takeFinishedEdit() { return std::exchange(g_finished, {}); }
+const std::map<std::string, std::array<float, 4>>& fieldPlaces() { return g_places; }
+bool finishedEditIs(const std::string& label) { return g_finished == label; }
+void beginFields() { g_places.clear(); }
 
 void explain(const char* text) {
   if (!text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
@@ -25,20 +43,33 @@ Edited number(const char* label, double& value, double loaded, const Range& rang
     ImGui::ClearActiveID();  // else the slider would follow the mouse again
     edited = {true, true};
   }
+  if (edited.finished) g_finished = label;
+  remember(label);
   if (!ImGui::IsItemActive()) explain(explanation);
   return edited;
 }
 
 bool choice(const char* label, int& index, std::span<const char* const> names, const char* explanation) {
   const bool changed = ImGui::Combo(label, &index, names.data(), int(names.size()));
+  if (changed) g_finished = label;
+  remember(label);
   explain(explanation);
   return changed;
 }
 
 bool tick(const char* label, bool& value, const char* explanation) {
   const bool changed = ImGui::Checkbox(label, &value);
+  if (changed) g_finished = label;
+  remember(label);
   explain(explanation);
   return changed;
+}
+
+bool press(const char* label, const char* explanation) {
+  const bool pressed = ImGui::Button(label);
+  remember(label);
+  explain(explanation);
+  return pressed;
 }
 
 void line(const std::string& name, const std::string& value) {

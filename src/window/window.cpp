@@ -80,6 +80,12 @@ app::Size Window::pixels() const {
   return size;
 }
 
+app::Size Window::size() const {
+  app::Size size;
+  glfwGetWindowSize(window_, &size.width, &size.height);
+  return size;
+}
+
 double Window::scale() const {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window_, &x, &y);

@@ -34,6 +34,7 @@ class Window {
   bool closing() const;
   void close();
   void hide();
+  app::Size size() const;    // in screen coordinates
   app::Size pixels() const;  // 0 x 0 while minimised
   double scale() const;      // of letters and lines on this monitor
   void setTitle(const std::string& title);
