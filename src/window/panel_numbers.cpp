@@ -45,7 +45,8 @@ void memoryPanel(Model& model) {
   std::vector<float> levels;
   for (const auto n : s.residency.bricksByLevel) levels.push_back(float(n));
   while (levels.size() > 1 && levels.back() == 0) levels.pop_back();
-  ImGui::PlotHistogram("##levels", levels.data(), int(levels.size()), 0, "bricks by level of the octree", 0, FLT_MAX, {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetTextLineHeightWithSpacing()});
+  ImGui::TextDisabled("bricks by level of the octree");
+  ImGui::PlotHistogram("##levels", levels.data(), int(levels.size()), 0, nullptr, 0, FLT_MAX, {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetTextLineHeightWithSpacing()});
   if (!model.renderer || !ImGui::TreeNode("what takes it")) return;
   for (const auto& [name, bytes] : model.renderer->memory().byName()) line(name, bytesText(bytes));
   ImGui::TreePop();

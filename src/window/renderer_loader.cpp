@@ -5,7 +5,7 @@
 namespace welkin::window {
 namespace {
 
-constexpr double kFirstTree_ms = 100;  // a coarse tree, so that the first picture has its clouds
+constexpr int kFirstFrames = 8;  // unseen: a level of the tree each, so that the first picture has its clouds
 
 }  // namespace
 
@@ -21,8 +21,7 @@ void RendererLoader::begin(const Scene& scene, const RenderSettings& settings, c
     }
     Made made = Renderer::create(context, scene, settings);
     if (made) {
-      const double start_ms = gpu::wall_ms();
-      (*made)->settle(view, [start_ms](double) { return gpu::wall_ms() - start_ms < kFirstTree_ms; });
+      for (int i = 0; i < kFirstFrames; ++i) (*made)->frame(view, FrameMode::Reprojected, 0);
     }
     glFinish();
     const std::lock_guard done(box->mutex);
