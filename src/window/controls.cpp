@@ -36,7 +36,8 @@ void gamePad(app::FlyInput& in, double dt_s) {
     const double v = double(pad.axes[which]);
     return std::abs(v) < 0.15 ? 0.0 : v;  // sticks at rest are not quite at 0
   };
-  in.move += glm::dvec3(stick(GLFW_GAMEPAD_AXIS_LEFT_X), (pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - pad.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]) / 2.0,
+  in.move += glm::dvec3(stick(GLFW_GAMEPAD_AXIS_LEFT_X),
+                        (pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - pad.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]) / 2.0,
                         stick(GLFW_GAMEPAD_AXIS_LEFT_Y));
   in.turn_rad += glm::dvec2(stick(GLFW_GAMEPAD_AXIS_RIGHT_X), -stick(GLFW_GAMEPAD_AXIS_RIGHT_Y)) * (kTurnRate_rad_s * dt_s);
   in.roll += double(pad.buttons[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER]) - double(pad.buttons[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER]);
@@ -70,7 +71,8 @@ void Controls::fly(Model& model, Window& window, const Events& events, bool mous
   app::FlyInput in;
   if (keys) {
     in.move = {axis(w, GLFW_KEY_D, GLFW_KEY_A),
-               std::min(1, glfwGetKey(w, GLFW_KEY_E) + glfwGetKey(w, GLFW_KEY_SPACE)) - std::min(1, glfwGetKey(w, GLFW_KEY_Q) + glfwGetKey(w, GLFW_KEY_LEFT_SHIFT)),
+               std::min(1, glfwGetKey(w, GLFW_KEY_E) + glfwGetKey(w, GLFW_KEY_SPACE)) -
+                   std::min(1, glfwGetKey(w, GLFW_KEY_Q) + glfwGetKey(w, GLFW_KEY_LEFT_SHIFT)),
                axis(w, GLFW_KEY_S, GLFW_KEY_W)};
     in.fast = held(w, GLFW_KEY_LEFT_CONTROL) || held(w, GLFW_KEY_RIGHT_CONTROL);
     in.roll = in.fast ? 0 : axis(w, GLFW_KEY_X, GLFW_KEY_Z);  // Ctrl Z undoes
@@ -83,8 +85,10 @@ void Controls::fly(Model& model, Window& window, const Events& events, bool mous
   const Drag before = drag_;
   const bool look = button(w, GLFW_MOUSE_BUTTON_LEFT), orbit = button(w, GLFW_MOUSE_BUTTON_RIGHT);
   if (drag_ == Drag::None && mouse && !window.mouseCaptured()) {  // a drag that began on the picture goes on over a panel
-    if (look) drag_ = Drag::Look;
-    else if (orbit && model.camera.grab(pointed(model, w, at))) drag_ = Drag::Orbit;
+    if (look)
+      drag_ = Drag::Look;
+    else if (orbit && model.camera.grab(pointed(model, w, at)))
+      drag_ = Drag::Orbit;
   }
   if (drag_ == Drag::Orbit && !orbit) model.camera.release();
   if ((drag_ == Drag::Look && !look) || (drag_ == Drag::Orbit && !orbit)) drag_ = Drag::None;
@@ -114,11 +118,13 @@ void Controls::press(Model& model, Window& window, Press press) {
   if (key == GLFW_KEY_HOME) model.camera.flyTo(model.home);
   if (key == GLFW_KEY_F11) window.toggleFullScreen();
   if (key == GLFW_KEY_F12) (press.mods & GLFW_MOD_SHIFT ? model.wanted.convergedPicture : model.wanted.picture) = true;
-  if (key == GLFW_KEY_Z && (press.mods & GLFW_MOD_CONTROL)) press.mods & GLFW_MOD_SHIFT ? model.redo() : model.undo();
+  if (key == GLFW_KEY_Z && (press.mods & GLFW_MOD_CONTROL)) press.mods& GLFW_MOD_SHIFT ? model.redo() : model.undo();
   if (key == GLFW_KEY_R) {
     const bool begins = model.tape != Model::Tape::Recording;
-    if (begins) model.recording = {}, model.tape_s = 0;
-    else model.wanted.savePath = true;
+    if (begins)
+      model.recording = {}, model.tape_s = 0;
+    else
+      model.wanted.savePath = true;
     model.tape = begins ? Model::Tape::Recording : Model::Tape::Idle;
   }
   if (key == GLFW_KEY_Q && (press.mods & GLFW_MOD_CONTROL)) window.close();

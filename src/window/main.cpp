@@ -1,10 +1,14 @@
-#include <array>
+#include <filesystem>
+#include <vector>
 
 #include "welkin/app/cli.h"
 #include "welkin/window/view_command.h"
 
+// Without a command: the window, of the file that is named or of the Earth.
 int main(int argc, char** argv) {
-  const std::array<const char*, 2> view{argc > 0 ? argv[0] : "welkin", "view"};
-  if (argc < 2) return welkin::app::runProgram(int(view.size()), view.data(), welkin::window::addView);
-  return welkin::app::runProgram(argc, argv, welkin::window::addView);
+  std::vector<const char*> arguments(argv, argv + argc);
+  std::error_code ignored;
+  if (arguments.empty()) arguments.push_back("welkin");
+  if (argc < 2 || std::filesystem::is_regular_file(argv[1], ignored)) arguments.insert(arguments.begin() + 1, "view");
+  return welkin::app::runProgram(int(arguments.size()), arguments.data(), welkin::window::addView);
 }

@@ -1,10 +1,10 @@
 #include "model.h"
 
-#include "widgets.h"
 #include "welkin/core/files.h"
 #include "welkin/core/log.h"
 #include "welkin/gpu/timer.h"
 #include "welkin/physics/scene_io.h"
+#include "widgets.h"
 
 namespace welkin::window {
 namespace {
@@ -75,8 +75,10 @@ void Model::say(const std::string& text, bool bad) {
   message = oneLine(text, 240);
   messageBad = bad;
   messageUntil_s = gpu::wall_ms() / 1000 + kMessage_s;
-  if (bad) log::warn("{}", message);
-  else log::info("{}", message);
+  if (bad)
+    log::warn("{}", message);
+  else
+    log::info("{}", message);
 }
 
 }  // namespace welkin::window

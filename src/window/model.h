@@ -8,19 +8,20 @@
 #include <string>
 
 #include "frame_times.h"
-#include "welkin/window/render_scale.h"
 #include "welkin/app/edit_history.h"
 #include "welkin/app/fly_camera.h"
 #include "welkin/app/recorder.h"
 #include "welkin/app/settings.h"
 #include "welkin/render/renderer.h"
+#include "welkin/window/render_scale.h"
 
 namespace welkin::window {
 
 enum class Panel { Camera, Scene, Quality, Exposure, Time, Profiler, Memory, LeftOut, Log };
-inline constexpr std::array<const char*, 9> kPanelNames{"Camera", "Scene", "Quality", "Exposure", "Time", "Profiler", "Memory", "Left out", "Log"};
+inline constexpr std::array<const char*, 9> kPanelNames{"Camera",   "Scene",  "Quality",  "Exposure", "Time",
+                                                        "Profiler", "Memory", "Left out", "Log"};
 
-struct Wanted {  // since the last frame
+struct Wanted {                                     // since the last frame
   bool march = false, air = false, output = false;  // what the renderer changes at once
   bool rebuild = false;                             // what needs a new one
   bool picture = false, convergedPicture = false;
@@ -69,7 +70,7 @@ struct Model {
   }
   app::EditHistory<Scene> edits{Scene{}};
   void runTape(double dt_s);  // a recording or a replay goes on
-  void keepEdits();  // what is finished can be undone
+  void keepEdits();           // what is finished can be undone
   void undo();
   void redo();
   // Begins anew with this scene and view.

@@ -20,7 +20,8 @@ void place(Model& model, const GeographicView& here) {
   field("longitude", g_there.longitude_deg, "%.5f deg", "east positive, -180 to 180");
   field("altitude", g_there.altitude_m, "%.1f m", "above the ground, from 1.5 m");
   if (press("Fly there", "a smooth flight to this place; heading and pitch stay")) {
-    model.camera.goTo(std::clamp(g_there.latitude_deg, -90.0, 90.0), g_there.longitude_deg, std::clamp(g_there.altitude_m, app::kEyeHeight_m, 1e10));
+    model.camera.goTo(std::clamp(g_there.latitude_deg, -90.0, 90.0), g_there.longitude_deg,
+                      std::clamp(g_there.altitude_m, app::kEyeHeight_m, 1e10));
     g_editing = false;
   }
   ImGui::SameLine();

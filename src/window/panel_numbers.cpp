@@ -8,7 +8,8 @@ namespace {
 
 void plot(const std::string& name, const FrameTimes::Row& row, int next, float height) {
   const float top = std::max(float(row.greatest()) * 1.15f, 1.0f);
-  ImGui::PlotLines(("##" + name).c_str(), row.ms.data(), int(row.ms.size()), next, nullptr, 0, top, {ImGui::GetContentRegionAvail().x * 0.55f, height});
+  ImGui::PlotLines(("##" + name).c_str(), row.ms.data(), int(row.ms.size()), next, nullptr, 0, top,
+                   {ImGui::GetContentRegionAvail().x * 0.55f, height});
   ImGui::SameLine();
   ImGui::BeginGroup();
   ImGui::TextUnformatted(name.c_str());
@@ -24,7 +25,9 @@ void profilerPanel(Model& model) {
   for (const auto& [name, row] : model.times.passes()) plot(name, row, model.times.next(), two);
   const FrameCounters& c = model.stats.counters;
   line("marched", fmt::format("{} pixels, {} new in sight", c.marchedPixels, c.rejectedPixels));
-  line("a ray", c.marchedPixels ? fmt::format("{:.1f} cells, {:.1f} samples", double(c.cells) / double(c.marchedPixels), double(c.samples) / double(c.marchedPixels)) : "none");
+  line("a ray", c.marchedPixels ? fmt::format("{:.1f} cells, {:.1f} samples", double(c.cells) / double(c.marchedPixels),
+                                              double(c.samples) / double(c.marchedPixels))
+                                : "none");
   line("not a number", fmt::format("{} pixels, {} holes", c.nanPixels, c.holes));
   line("worker", fmt::format("{} bricks made, {} lit", model.stats.bricksGenerated, model.stats.bricksLit));
   line("GL", model.device);
@@ -33,9 +36,11 @@ void profilerPanel(Model& model) {
 void memoryPanel(Model& model) {
   const FrameStats& s = model.stats;
   const auto share = [](double part, double whole) { return whole > 0 ? float(part / whole) : 0.0f; };
-  ImGui::ProgressBar(share(double(s.bytesUsed), double(s.bytesBudget)), {-1, 0}, fmt::format("{} of {}", bytesText(s.bytesUsed), bytesText(s.bytesBudget)).c_str());
+  ImGui::ProgressBar(share(double(s.bytesUsed), double(s.bytesBudget)), {-1, 0},
+                     fmt::format("{} of {}", bytesText(s.bytesUsed), bytesText(s.bytesBudget)).c_str());
   explain("bytes in use of the budget");
-  ImGui::ProgressBar(share(s.residency.bricks, s.residency.brickCapacity), {-1, 0}, fmt::format("{} of {} bricks", s.residency.bricks, s.residency.brickCapacity).c_str());
+  ImGui::ProgressBar(share(s.residency.bricks, s.residency.brickCapacity), {-1, 0},
+                     fmt::format("{} of {} bricks", s.residency.bricks, s.residency.brickCapacity).c_str());
   explain("bricks of the octree that are there");
   line("waiting", fmt::format("{} bricks{}", s.residency.pendingBricks, s.residency.settled ? ", all is there" : ""));
   line("detail", fmt::format("{:.0f} nodes a radian of {:.0f}", s.sampleDetail, s.residency.selectedDetail));
@@ -46,7 +51,8 @@ void memoryPanel(Model& model) {
   for (const auto n : s.residency.bricksByLevel) levels.push_back(float(n));
   while (levels.size() > 1 && levels.back() == 0) levels.pop_back();
   ImGui::TextDisabled("bricks by level of the octree");
-  ImGui::PlotHistogram("##levels", levels.data(), int(levels.size()), 0, nullptr, 0, FLT_MAX, {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetTextLineHeightWithSpacing()});
+  ImGui::PlotHistogram("##levels", levels.data(), int(levels.size()), 0, nullptr, 0, FLT_MAX,
+                       {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetTextLineHeightWithSpacing()});
   if (!model.renderer || !ImGui::TreeNode("what takes it")) return;
   for (const auto& [name, bytes] : model.renderer->memory().byName()) line(name, bytesText(bytes));
   ImGui::TreePop();
@@ -72,7 +78,8 @@ void leftOutPanel(Model& model) {
 void logPanel(Model&) {
   ImGui::BeginChild("lines", {0, 12 * ImGui::GetTextLineHeightWithSpacing()}, true);
   ImGui::PushTextWrapPos(0);
-  for (const auto& text : LogLines::last()) ImGui::TextUnformatted(text.c_str(), text.c_str() + std::min(text.size(), text.find_last_not_of('\n') + 1));
+  for (const auto& text : LogLines::last())
+    ImGui::TextUnformatted(text.c_str(), text.c_str() + std::min(text.size(), text.find_last_not_of('\n') + 1));
   if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1);
   ImGui::PopTextWrapPos();
   ImGui::EndChild();

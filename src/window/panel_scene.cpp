@@ -36,8 +36,10 @@ void sunFields(Model& model) {
   const GeographicView here = app::toGeographic(model.camera.view(), model.scene.planet.radius_m);
   app::SunInSky seen = app::sunInSky(sun.direction_planet, here.latitude_deg, here.longitude_deg);
   const app::SunInSky before = app::sunInSky(loaded.direction_planet, here.latitude_deg, here.longitude_deg);
-  const bool sky = number("sun elevation here", seen.elevation_deg, before.elevation_deg, {-90, 90, "%.1f deg"}, "over the horizon below the camera").now |
-                   number("sun azimuth here", seen.azimuth_deg, before.azimuth_deg, {0, 360, "%.1f deg"}, "clockwise from north").now;
+  const bool sky =
+      number("sun elevation here", seen.elevation_deg, before.elevation_deg, {-90, 90, "%.1f deg"}, "over the horizon below the camera")
+          .now |
+      number("sun azimuth here", seen.azimuth_deg, before.azimuth_deg, {0, 360, "%.1f deg"}, "clockwise from north").now;
   let = let || finishedEditIs("sun elevation here") || finishedEditIs("sun azimuth here");
   if (press("Sun as now", "where the sun stands over the Earth at this moment")) {
     const double days = double(std::time(nullptr)) / 86400 - 10957.5;  // from 1970-01-01 00:00 to 2000-01-01 12:00 UTC
@@ -48,7 +50,8 @@ void sunFields(Model& model) {
   if (moved) sun.direction_planet = directionTo(at.latitude_deg, at.longitude_deg);
   if (let) model.wanted.air = true;  // light of clouds that is there needs a new start: the viewer sees to it
   double factor = sun.irradiance[1];
-  const Edited bright = number("irradiance", factor, loaded.irradiance[1], {0.01, 100, "%.3g", true}, "of the sun at 550 nm, at the planet; the others follow");
+  const Edited bright = number("irradiance", factor, loaded.irradiance[1], {0.01, 100, "%.3g", true},
+                               "of the sun at 550 nm, at the planet; the others follow");
   if (bright.now && sun.irradiance[1] > 0)
     for (double& e : sun.irradiance) e *= factor / sun.irradiance[1], factor = std::max(factor, 1e-9);
   if (bright.finished) model.wanted.air = true;
@@ -58,7 +61,8 @@ void airFields(Model& model) {
   Atmosphere& air = *model.scene.atmosphere;
   for (std::size_t i = 0; i < air.layers.size(); ++i) {
     AirLayer& layer = air.layers[i];
-    const AirLayer& loaded = model.asLoaded.atmosphere && i < model.asLoaded.atmosphere->layers.size() ? model.asLoaded.atmosphere->layers[i] : layer;
+    const AirLayer& loaded =
+        model.asLoaded.atmosphere && i < model.asLoaded.atmosphere->layers.size() ? model.asLoaded.atmosphere->layers[i] : layer;
     const auto amount = [](const AirLayer& l) { return l.scattering_per_m[1] + l.absorption_per_m[1]; };
     const double was = amount(layer);
     if (was <= 0) continue;
@@ -83,10 +87,12 @@ void cloudFields(Model& model) {
       CloudLayer& layer = source->layers[i];
       CloudLayer loaded = layer;
       if (model.asLoaded.clouds && s < model.asLoaded.clouds->sources.size())
-        if (const auto* was = std::get_if<LayersSource>(&model.asLoaded.clouds->sources[s]); was && i < was->layers.size()) loaded = was->layers[i];
+        if (const auto* was = std::get_if<LayersSource>(&model.asLoaded.clouds->sources[s]); was && i < was->layers.size())
+          loaded = was->layers[i];
       ImGui::PushID(int(s * 100 + i));
       if (ImGui::TreeNode(fmt::format("{}###layer", layer.name.empty() ? "layer" : layer.name).c_str())) {
-        finished |= number("extinction", layer.extinction_per_m, loaded.extinction_per_m, {1e-5, 1, "%.3g /m", true}, "the greatest").finished;
+        finished |=
+            number("extinction", layer.extinction_per_m, loaded.extinction_per_m, {1e-5, 1, "%.3g /m", true}, "the greatest").finished;
         finished |= number("base", layer.base_m, loaded.base_m, {0, layer.top_m - 1, "%.0f m"}, "altitude").finished;
         finished |= number("top", layer.top_m, loaded.top_m, {layer.base_m + 1, 30'000, "%.0f m"}, "altitude").finished;
         finished |= number("cover gain", layer.coverGain, loaded.coverGain, {0, 4, "%.2f"}, "of the weather's cover").finished;
@@ -119,8 +125,10 @@ void scenePanel(Model& model) {
     bool on = now.has_value();
     if (!now && !loaded) return;
     if (!tick(label, on, text)) return;
-    if (on) now = loaded;
-    else now.reset();
+    if (on)
+      now = loaded;
+    else
+      now.reset();
     model.wanted.rebuild = true;
   };
   part("air##there", scene.atmosphere, model.asLoaded.atmosphere, "with or without the atmosphere");
@@ -132,9 +140,10 @@ void scenePanel(Model& model) {
     cloudFields(model);
     ImGui::TreePop();
   }
-  if (press("Save scene", "as welkin-scene.json, never over another file; the present view becomes its view \"default\"")) model.wanted.saveScene = true;
+  if (press("Save scene", "as welkin-scene.json, never over another file; the present view becomes its view \"default\""))
+    model.wanted.saveScene = true;
   ImGui::SameLine();
-  if (press("Undo", "Ctrl Z") ) model.undo();
+  if (press("Undo", "Ctrl Z")) model.undo();
   ImGui::SameLine();
   if (press("Redo", "Ctrl Shift Z")) model.redo();
 }

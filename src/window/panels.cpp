@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "controls.h"
-#include "widgets.h"
 #include "welkin/app/geographic.h"
 #include "welkin/gpu/timer.h"
+#include "widgets.h"
 
 namespace welkin::window {
 namespace {
@@ -51,13 +51,17 @@ void status(const Model& model) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   if (ImGui::Begin("status", nullptr, kFixed | ImGuiWindowFlags_NoInputs)) {
     const GeographicView at = app::toGeographic(model.camera.view(), model.scene.planet.radius_m);
-    std::string line = fmt::format("{}   {}   {}/s", app::placeText(at), app::lengthText(at.altitude_m), app::lengthText(glm::length(model.camera.velocity_m_s())));
+    std::string line = fmt::format("{}   {}   {}/s", app::placeText(at), app::lengthText(at.altitude_m),
+                                   app::lengthText(glm::length(model.camera.velocity_m_s())));
     line += fmt::format("   |   {:.0f} frames/s   {} x {}", model.frameRate, model.picture.width, model.picture.height);
     if (model.scale.scale() < 1)
       line += fmt::format(", {:.0f} % of the window{}", 100 * model.scale.scale(), model.scale.automatic ? " to keep 20 frames/s" : "");
-    if (model.loading_s >= 0) line += fmt::format("   |   preparing the scene, {:.1f} s", model.loading_s);
-    else if (model.stats.skyProgress < 1) line += fmt::format("   |   light of the air {:.0f} %", 100 * model.stats.skyProgress);
-    else if (model.stats.residency.pendingBricks > 0) line += fmt::format("   |   {} bricks to come", model.stats.residency.pendingBricks);
+    if (model.loading_s >= 0)
+      line += fmt::format("   |   preparing the scene, {:.1f} s", model.loading_s);
+    else if (model.stats.skyProgress < 1)
+      line += fmt::format("   |   light of the air {:.0f} %", 100 * model.stats.skyProgress);
+    else if (model.stats.residency.pendingBricks > 0)
+      line += fmt::format("   |   {} bricks to come", model.stats.residency.pendingBricks);
     ImGui::TextUnformatted(line.c_str());
     const char* hint = "H: keys   Tab: panels";
     ImGui::SameLine(screen.x - ImGui::CalcTextSize(hint).x - 10);
@@ -77,8 +81,10 @@ void message(const Model& model) {
   ImGui::SetNextWindowSizeConstraints({0, 0}, {std::max(room - 40, 100.0f), screen.y});
   if (ImGui::Begin("message", nullptr, kFixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize)) {
     ImGui::PushTextWrapPos(std::max(room - 80, 80.0f));
-    if (model.messageBad) ImGui::TextColored({1, 0.72f, 0.45f, 1}, "%s", text.c_str());
-    else ImGui::TextUnformatted(text.c_str());
+    if (model.messageBad)
+      ImGui::TextColored({1, 0.72f, 0.45f, 1}, "%s", text.c_str());
+    else
+      ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
   }
   ImGui::End();

@@ -17,8 +17,8 @@ class RendererLoader {
   bool busy() const { return busy_; }
   double since_s() const;  // begin()
   using Made = Result<std::unique_ptr<Renderer>>;
-  std::optional<Made> take();            // once it is there
-  void end(std::unique_ptr<Renderer>);   // its worker and its memory, without waiting
+  std::optional<Made> take();           // once it is there
+  void end(std::unique_ptr<Renderer>);  // its worker and its memory, without waiting
 
  private:
   struct Box {  // outlives the loader if a job still runs

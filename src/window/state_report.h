@@ -1,5 +1,6 @@
 #pragma once
 // What the window shows, as JSON, for tests (docs/window.md).
+#include <map>
 #include <string>
 
 #include "model.h"
@@ -9,6 +10,7 @@ namespace welkin::window {
 struct Counts {  // since the window opened
   std::uint64_t frames = 0, pictures = 0, nanPixels = 0, holes = 0, glMessages = 0, resizes = 0;
   double seconds = 0, firstPicture_s = -1, worstFrame_ms = 0;
+  std::map<std::string, double> worst_ms;  // its parts
 };
 
 std::string stateJson(const Model& model, const Counts& counts);

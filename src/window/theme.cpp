@@ -12,7 +12,8 @@ constexpr double kLetters_px = 15;
 
 // The first of these that the machine has; without any ImGui's own pixel letters.
 constexpr std::array kFonts{"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf", "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+                            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                            "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
                             "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"};
 
 void loadLetters(double scale) {

@@ -2,9 +2,39 @@
 
 #include "viewer.h"
 #include "welkin/app/commands.h"
+#include "welkin/app/places.h"
+#include "welkin/app/restore.h"
 #include "welkin/app/stop.h"
+#include "welkin/core/log.h"
 
 namespace welkin::window {
+namespace {
+
+Result<app::Start> startOf(const ViewOptions& options) {
+  if (options.input.empty())
+    return app::loadStart(app::programFolder() / "scenes" / "earth.json", options.viewName.empty() ? "orbit" : options.viewName);
+  if (!options.viewName.empty()) return app::loadStart(options.input, options.viewName);
+  auto restored = app::restoreFrom(options.input);
+  if (!restored) return restored.error();
+  return std::move(restored->start);
+}
+
+Result<void> view(const ViewOptions& options) {
+  auto start = startOf(options);
+  if (!start) return start.error();
+  app::LoadedSettings loaded = app::loadSettings(app::settingsFile());
+  auto window = Window::open(options.common.size.value_or(app::Size{loaded.settings.width, loaded.settings.height}), "Welkin");
+  if (!window) return window.error();
+  auto context = gpu::Context::ofCurrent();
+  if (!context) return Error{context.error().message + "; `welkin render` draws pictures without a window"};
+  const auto& device = (*context)->device();
+  log::info("OpenGL: {} ({}){}", device.renderer, device.version, device.software ? ", software: no GPU is used" : "");
+  if (!loaded.note.empty()) log::warn("{}", loaded.note);
+  runViewer(options, std::move(loaded.settings), std::move(*start), **window, **context);
+  return {};
+}
+
+}  // namespace
 
 void addView(CLI::App& app, app::Action& action) {
   auto o = std::make_shared<ViewOptions>();

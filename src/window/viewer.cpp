@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <future>
 
+#include "brick_pace.h"
 #include "controls.h"
+#include "file_loader.h"
 #include "interface.h"
 #include "log_lines.h"
 #include "panels.h"
@@ -13,34 +13,34 @@
 #include "renderer_loader.h"
 #include "screenshots.h"
 #include "state_report.h"
-#include "welkin/app/places.h"
-#include "welkin/app/restore.h"
+#include "welkin/app/settings.h"
 #include "welkin/app/stop.h"
 #include "welkin/core/files.h"
 #include "welkin/core/log.h"
 #include "welkin/physics/scene_io.h"
+#include "written_files.h"
 
 namespace welkin::window {
 namespace {
 
 constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25;
-constexpr double kPathStep_s = 1.0 / 30;
-constexpr double kSpareDetail = 1.4;  // for the next step of a flight
-constexpr double kBricks_ms = 12;  // of a frame
-constexpr std::uint32_t kFirstBricks = 128, kLeastBricks = 64, kMostBricks = 8192;
-
-std::filesystem::path earth() { return app::programFolder() / "scenes" / "earth.json"; }
+constexpr std::uint64_t kFirstPictures = 8;  // not among the slowest: shaders are compiled for them
+constexpr double kSpareDetail = 1.4;         // for the next step of a flight
 
 class Viewer {
  public:
-  Viewer(const ViewOptions& options, app::LoadedSettings&& settings, app::Start&& start, Window& window, gpu::Context& context, double opened_ms)
-      : options_(options), window_(window), context_(context), interface_(window), glThread_(window.helper()), loader_(glThread_, context),
-        shots_(options.shots, options.common.gpu), opened_ms_(opened_ms) {
+  Viewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context)
+      : options_(options),
+        window_(window),
+        context_(context),
+        interface_(window),
+        glThread_(window.helper()),
+        loader_(glThread_, context),
+        shots_(options.shots, options.common.gpu) {
     model_.device = context.device().renderer;
     model_.software = context.device().software;
     begin(std::move(start));
-    model_.settings = std::move(settings.settings);
-    if (!settings.note.empty()) model_.say(settings.note, true);
+    model_.settings = std::move(settings);
   }
 
   void run() {
@@ -79,6 +79,7 @@ class Viewer {
     model_.frameRate += (1 / std::max(dt_s, 1e-3) - model_.frameRate) * std::min(1.0, dt_s * 2);
     carryOut();
     model_.window = window_.pixels();
+    begun_ms_ = gpu::wall_ms();
     const bool minimised = model_.window.width <= 0 || model_.window.height <= 0;
     if (!minimised) {
       draw(dt_s);
@@ -93,7 +94,12 @@ class Viewer {
       const double shown_ms = gpu::wall_ms();
       // A GPU waits for the display in swap; software has a copy to make.
       const double frame_ms = (model_.software ? shown_ms : interface_ms) - now_ms;
-      if (drawn_) timed(frame_ms, {{"stretch", drawn_ms - pictured_ms_}, {"interface", interface_ms - drawn_ms}, {"show", shown_ms - interface_ms}});
+      if (drawn_)
+        timed(frame_ms, {{"input", begun_ms_ - now_ms},
+                         {"draw", pictured_ms_ - begun_ms_},
+                         {"stretch", drawn_ms - pictured_ms_},
+                         {"interface", interface_ms - drawn_ms},
+                         {"show", shown_ms - interface_ms}});
       if (drawn_ && counts_.firstPicture_s < 0) {
         counts_.firstPicture_s = (gpu::wall_ms() - opened_ms_) / 1000;
         log::info("first picture after {:.2f} s", counts_.firstPicture_s);
@@ -107,15 +113,17 @@ class Viewer {
   void timed(double frame_ms, const std::map<std::string, double>& parts_ms) {
     model_.scale.frame(frame_ms);
     auto passes = model_.stats.passes;
-    for (const auto& [name, ms] : parts_ms) passes[name].wall_ms = ms;
+    for (const auto& [name, ms] : parts_ms)
+      if (name != "draw") passes[name].wall_ms = ms;  // its passes are told one by one
     model_.times.add(frame_ms, passes);
-    if (counts_.pictures > 8) counts_.worstFrame_ms = std::max(counts_.worstFrame_ms, frame_ms);
+    if (counts_.pictures > kFirstPictures && frame_ms > counts_.worstFrame_ms) {
+      counts_.worstFrame_ms = frame_ms;
+      counts_.worst_ms = parts_ms;
+      for (const auto& [name, time] : passes) counts_.worst_ms[name] = time.wall_ms;
+    }
     if (!renderer_) return;
-    // As many bricks a frame as fit into their share of its time.
-    if (model_.stats.bricksGenerated < kLeastBricks / 2) return;
-    const double brick_ms = (passes["bricks"].wall_ms + passes["light"].wall_ms) / model_.stats.bricksGenerated;
-    brick_ms_ += (brick_ms - brick_ms_) / 8;
-    renderer_->setBricksPerFrame(std::uint32_t(std::clamp(kBricks_ms / brick_ms_, double(kLeastBricks), double(kMostBricks))));
+    pace_.made(model_.stats.bricksGenerated, passes["bricks"].wall_ms + passes["light"].wall_ms);
+    renderer_->setBricksPerFrame(pace_.perFrame());
   }
 
   // What is asked for is done, or begun.
@@ -124,8 +132,8 @@ class Viewer {
     model_.keepEdits();
     const Wanted wanted = std::exchange(model_.wanted, {});
     bool rebuild = wanted.rebuild;
-    if (wanted.saveScene) save("scene", writeScene());
-    if (wanted.savePath) save("path", writePath());
+    if (wanted.saveScene) save("scene", writeScene(model_, folder()));
+    if (wanted.savePath) save("path", writePath(model_, folder()));
     if (model_.settingsChanged) model_.settingsChanged = false, keepSettings();
     if (renderer_ && !rebuild) {
       const auto done = [this](const Result<void>& r) {
@@ -151,7 +159,7 @@ class Viewer {
     RenderSettings s;
     const app::Size size = model_.scale.sizeFor(window_.pixels());
     s.width = std::max(size.width, 16), s.height = std::max(size.height, 16);
-    s.bricksPerFrame = kFirstBricks;
+    s.bricksPerFrame = pace_.perFrame();
     s.waitForEdits = false;
     s.linear = false;
     s.spareDetail = kSpareDetail;
@@ -176,54 +184,36 @@ class Viewer {
 
   std::filesystem::path folder() const { return options_.shots.empty() ? "." : options_.shots; }
 
-  Result<std::filesystem::path> writeScene() {
-    Scene scene = model_.scene;
-    scene.views["default"] = model_.view();
-    auto stem = app::reserveFiles(folder(), "welkin-scene", {".json"});
-    if (!stem) return stem.error();
-    const std::filesystem::path file = *stem += ".json";
-    if (auto saved = saveScene(scene, file); !saved) return saved.error();
-    return file;
-  }
-
-  Result<std::filesystem::path> writePath() {
-    auto path = model_.recording.path(kPathStep_s);
-    if (!path) return path.error();
-    path->name = model_.scene.name;
-    path->width = model_.window.width, path->height = model_.window.height;
-    const bool changed = model_.edits.canUndo() || app::kindOfName(model_.scene.file) != app::PictureKind::None;
-    return app::saveRecorded(std::move(*path), model_.scene, changed, folder(), "welkin-path");
-  }
-
   void keepSettings() {
     const auto file = app::settingsFile();
     if (file.empty()) return;
     if (auto saved = app::saveSettings(model_.settings, file); !saved) model_.say(saved.error().message, true);
   }
 
-  // A thread reads it: the data of a picture may be large, and its checksums take their time.
   void load(const std::filesystem::path& file) {
     model_.say("reading " + file.filename().string());
-    loads_.push_back(std::async(std::launch::async, [file] { return app::restoreFrom(file); }));
+    files_.begin(file);
   }
 
   void takeLoaded() {
-    if (loads_.empty() || loads_.front().wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    auto restored = loads_.front().get();
-    loads_.pop_front();
-    if (!restored) {
-      model_.say(restored.error().message, true);
-      return;
-    }
-    const auto notes = restored->start.notes;
-    begin(std::move(restored->start));
-    if (restored->path) {
+    auto restored = files_.take();
+    if (!restored) return;
+    if (*restored)
+      use(std::move(**restored));
+    else
+      model_.say(restored->error().message, true);
+  }
+
+  void use(app::Restored restored) {
+    const auto notes = restored.start.notes;
+    begin(std::move(restored.start));
+    if (restored.path) {
       model_.recording = {};
-      for (std::size_t i = 0; i < restored->path->frames.size(); ++i)
-        model_.recording.add(double(i) * restored->path->timeStep_s, restored->path->frames[i].view, restored->path->frames[i].time_s);
+      for (std::size_t i = 0; i < restored.path->frames.size(); ++i)
+        model_.recording.add(double(i) * restored.path->timeStep_s, restored.path->frames[i].view, restored.path->frames[i].time_s);
       model_.tape = Model::Tape::Replaying, model_.tape_s = 0;
     }
-    model_.say(restored->path ? "a recorded flight of " + oneLine(model_.scene.name, 60) : "restored " + oneLine(model_.scene.name, 60));
+    model_.say(restored.path ? "a recorded flight of " + oneLine(model_.scene.name, 60) : "restored " + oneLine(model_.scene.name, 60));
     for (const auto& note : notes) model_.say(note, true);
   }
 
@@ -243,8 +233,10 @@ class Viewer {
       counts_.holes += model_.stats.counters.holes;
     }
     pictured_ms_ = gpu::wall_ms();
-    if (renderer_ && drawn_) presenter_.show(renderer_->shown(), model_.window);
-    else presenter_.clear(model_.window);
+    if (renderer_ && drawn_)
+      presenter_.show(renderer_->shown(), model_.window);
+    else
+      presenter_.clear(model_.window);
   }
 
   void report() {
@@ -266,34 +258,18 @@ class Viewer {
   Screenshots shots_;
   Controls controls_;
   std::unique_ptr<Renderer> renderer_;
-  std::deque<std::future<Result<app::Restored>>> loads_;
+  FileLoader files_;
   Counts counts_;
-  double brick_ms_ = kBricks_ms / kFirstBricks;  // to make one and light it
+  BrickPace pace_;
   bool drawn_ = false;  // a picture of this renderer is there
   bool idle_ = false;
-  double opened_ms_, reported_ms_ = 0, pictured_ms_ = 0;
+  double opened_ms_ = gpu::wall_ms(), reported_ms_ = 0, begun_ms_ = 0, pictured_ms_ = 0;
 };
 
 }  // namespace
 
-Result<void> view(const ViewOptions& options) {
-  const double opened_ms = gpu::wall_ms();
-  const bool theEarth = options.input.empty();
-  auto restored = app::restoreFrom(theEarth ? earth() : options.input);
-  if (!restored) return restored.error();
-  auto start = theEarth || !options.viewName.empty() ? app::loadStart(theEarth ? earth() : options.input, options.viewName.empty() ? "orbit" : options.viewName)
-                                                     : Result<app::Start>(std::move(restored->start));
-  if (!start) return start.error();
-  app::LoadedSettings settings = app::loadSettings(app::settingsFile());
-  const app::Size size = options.common.size.value_or(app::Size{settings.settings.width, settings.settings.height});
-  auto window = Window::open(size, "Welkin");
-  if (!window) return window.error();
-  auto context = gpu::Context::ofCurrent();
-  if (!context) return Error{context.error().message + "; `welkin render` draws pictures without a window"};
-  const auto& device = (*context)->device();
-  log::info("OpenGL: {} ({}){}", device.renderer, device.version, device.software ? ", software: no GPU is used" : "");
-  Viewer(options, std::move(settings), std::move(*start), **window, **context, opened_ms).run();
-  return {};
+void runViewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context) {
+  Viewer(options, std::move(settings), std::move(start), window, context).run();
 }
 
 }  // namespace welkin::window

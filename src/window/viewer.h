@@ -1,9 +1,11 @@
 #pragma once
-// The window from its opening to its end: input, camera, picture, interface, in this order in every frame.
+// The window from its first frame to its last: input, camera, picture, interface, in this order in every frame.
 #include <filesystem>
-#include <string>
 
 #include "welkin/app/options.h"
+#include "welkin/app/settings.h"
+#include "welkin/gpu/context.h"
+#include "window.h"
 
 namespace welkin::window {
 
@@ -15,7 +17,7 @@ struct ViewOptions {
   std::filesystem::path state;  // file for tests; empty: none
 };
 
-// Returns when the window was closed. Error: no window, or nothing to begin with.
-Result<void> view(const ViewOptions& options);
+// Returns when the window was closed, or Ctrl-C was pressed.
+void runViewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context);
 
 }  // namespace welkin::window

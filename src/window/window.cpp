@@ -15,7 +15,8 @@ std::string g_problem;  // the newest one: GLFW has no other way to say why it f
 void onError(int, const char* text) { g_problem = oneLine(text); }
 
 Error noWindow(const std::string& what) {
-  return Error{fmt::format("no window: {}{}{}; `welkin render` draws pictures without one", what, g_problem.empty() ? "" : ": ", g_problem)};
+  return Error{
+      fmt::format("no window: {}{}{}; `welkin render` draws pictures without one", what, g_problem.empty() ? "" : ": ", g_problem)};
 }
 
 Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
@@ -63,8 +64,10 @@ Window::~Window() {
 }
 
 Events Window::poll(double mostWait_s) {
-  if (mostWait_s > 0) glfwWaitEventsTimeout(mostWait_s);
-  else glfwPollEvents();
+  if (mostWait_s > 0)
+    glfwWaitEventsTimeout(mostWait_s);
+  else
+    glfwPollEvents();
   return std::exchange(events_, {});
 }
 

@@ -1,5 +1,5 @@
-// xdnd_source WINDOW FILE...: drops files onto an X11 window, as a file manager does (XDND, version 5: freedesktop.org/wiki/Specifications/XDND).
-// Exit 0 once the window says that it has them, 1 after some seconds without that.
+// xdnd_source WINDOW FILE...: drops files onto an X11 window, as a file manager does (XDND, version 5:
+// freedesktop.org/wiki/Specifications/XDND). Exit 0 once the window says that it has them, 1 after some seconds without that.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <unistd.h>
@@ -18,7 +18,8 @@ std::string uriList(int count, char** files) {
   for (int i = 0; i < count; ++i) {
     list += "file://";
     for (const char c : std::filesystem::absolute(files[i]).string()) {
-      const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '-' || c == '_';
+      const bool plain =
+          (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '-' || c == '_';
       char coded[4];
       std::snprintf(coded, sizeof(coded), "%%%02X", static_cast<unsigned char>(c));
       list += plain ? std::string(1, c) : coded;
@@ -41,8 +42,8 @@ struct Source {
     XFlush(display);
   }
   void answer(const XSelectionRequestEvent& asked, const std::string& list) const {
-    XChangeProperty(display, asked.requestor, asked.property, asked.target, 8, PropModeReplace, reinterpret_cast<const unsigned char*>(list.data()),
-                    static_cast<int>(list.size()));
+    XChangeProperty(display, asked.requestor, asked.property, asked.target, 8, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(list.data()), static_cast<int>(list.size()));
     XEvent event{};
     event.xselection = {SelectionNotify, 0, True, display, asked.requestor, asked.selection, asked.target, asked.property, asked.time};
     XSendEvent(display, asked.requestor, False, NoEventMask, &event);
@@ -58,7 +59,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: xdnd_source WINDOW FILE..., with a display\n");
     return 2;
   }
-  const Source source{display, XCreateSimpleWindow(display, DefaultRootWindow(display), 0, 0, 1, 1, 0, 0, 0), std::strtoul(argv[1], nullptr, 0)};
+  const Source source{display, XCreateSimpleWindow(display, DefaultRootWindow(display), 0, 0, 1, 1, 0, 0, 0),
+                      std::strtoul(argv[1], nullptr, 0)};
   const std::string list = uriList(argc - 2, argv + 2);
   XSetSelectionOwner(display, source.atom("XdndSelection"), source.self, CurrentTime);
   source.send("XdndEnter", static_cast<long>(kVersion) << 24, static_cast<long>(source.atom("text/uri-list")), 0, 0);
