@@ -114,7 +114,7 @@ def panels(c):
         time.sleep(0.7)
         after = w.capture(os.path.join(c.out, f"panel-{name.lower().replace(' ', '-')}.png"))
         share = differs(before[:, 910:], after[:, 910:])
-        c.line(f"panel {name}", share, "opens, over 1 % of the bar changes", state is not None and share > 0.01)
+        c.line(f"panel {name}", share, "opens, over 0.3 % of the bar changes", state is not None and share > 0.003)
     w.key("9", "h")
     c.line("H shows the keys", w.wait_for(lambda s: s["help"], 10) is not None, "shown", w.state()["help"])
     time.sleep(0.5)

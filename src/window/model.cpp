@@ -16,6 +16,7 @@ constexpr double kMessage_s = 6;
 void Model::start(Scene begun, const View& view) {
   scene = std::move(begun);
   exposure_ev = view.exposure_ev ? view.exposure_ev : scene.output.exposure_ev;
+  scene.output.exposure_ev = exposure_ev;  // one place for it, so that undo finds it
   asLoaded = scene;
   edits = app::EditHistory<Scene>(scene);
   home = view;

@@ -45,6 +45,7 @@ std::string stateJson(const Model& m, const Counts& c) {
                    {"pictures", c.pictures},
                    {"first_picture_s", c.firstPicture_s},
                    {"worst_frame_ms", c.worstFrame_ms},
+                   {"switch_ms", c.switch_ms},
                    {"worst_frame", c.worst_ms},
                    {"resizes", c.resizes},
                    {"nan_pixels", c.nanPixels},

@@ -116,7 +116,9 @@ class Viewer {
     for (const auto& [name, ms] : parts_ms)
       if (name != "draw") passes[name].wall_ms = ms;  // its passes are told one by one
     model_.times.add(frame_ms, passes);
-    if (counts_.pictures > kFirstPictures && frame_ms > counts_.worstFrame_ms) {
+    if (pictures_ <= kFirstPictures)
+      counts_.switch_ms = std::max(counts_.switch_ms, frame_ms);
+    else if (frame_ms > counts_.worstFrame_ms) {
       counts_.worstFrame_ms = frame_ms;
       counts_.worst_ms = parts_ms;
       for (const auto& [name, time] : passes) counts_.worst_ms[name] = time.wall_ms;
@@ -175,6 +177,7 @@ class Viewer {
     renderer_ = std::move(*made);
     model_.renderer = renderer_.get();
     drawn_ = false;
+    pictures_ = 0;
     for (const auto& note : renderer_->notes()) model_.say(note, true);
   }
 
@@ -228,7 +231,7 @@ class Viewer {
       const View view = model_.view();
       model_.stats = renderer_->frame(view, model_.reprojection ? FrameMode::Reprojected : FrameMode::Full, dt_s);
       drawn_ = true;
-      ++counts_.pictures;
+      ++counts_.pictures, ++pictures_;
       counts_.nanPixels += model_.stats.counters.nanPixels;
       counts_.holes += model_.stats.counters.holes;
     }
@@ -261,7 +264,8 @@ class Viewer {
   FileLoader files_;
   Counts counts_;
   BrickPace pace_;
-  bool drawn_ = false;  // a picture of this renderer is there
+  bool drawn_ = false;          // a picture of this renderer is there
+  std::uint64_t pictures_ = 0;  // of this renderer
   bool idle_ = false;
   double opened_ms_ = gpu::wall_ms(), reported_ms_ = 0, begun_ms_ = 0, pictured_ms_ = 0;
 };
