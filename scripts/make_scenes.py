@@ -126,10 +126,11 @@ def left_out(pose_sun):
 
 def error_views(count=40, held=8):
     """Views of the cloudy South Atlantic by day, from 2 m to 20,000 km: on the ground looking up, in the air looking ahead, in space looking at the
-    planet. The last `held` come from a generator of their own: no constant of the code was ever chosen with them in sight."""
+    planet. The last `held` come from a generator of their own: no constant of the code was ever chosen with them in sight.
+    (The generator's first eight were looked at when the step rule was mended; these are its next.)"""
     out = {}
     for i in range(count + held):
-        draw = random.Random(f"error {i}" if i < count else f"held {i}")
+        draw = random.Random(f"error {i}" if i < count else f"held {i + held}")
         altitude_m = 2.0 * 10 ** draw.uniform(0, 7)
         dip_deg = math.degrees(math.acos(RADIUS_M / (RADIUS_M + altitude_m)))
         pitch_deg = -dip_deg + (draw.uniform(-15, 30) if altitude_m < 3_000 else draw.uniform(-40, 3) if altitude_m < 100_000 else draw.uniform(-30, -2))

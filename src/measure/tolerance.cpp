@@ -13,8 +13,9 @@ namespace {
 constexpr double kTruthStep = 0.01;    // a quarter of the finest candidate's
 constexpr double kMargin = 0.93;       // of the tolerance is aimed at: chosen, for the pixels that are not tried; render measures them all
 constexpr std::size_t kPixels = 6400;  // of a picture are tried
-constexpr double kLookUpCost = 2.6;    // samples
-constexpr double kRayCost = 0;         // samples
+constexpr double kLookUpCost = 1.2;    // samples
+constexpr double kRayCost = 8;         // samples
+constexpr double kSpreadCost = 1.4;    // times: rays that run together are further apart, and stay less alike
 constexpr int kMostRounds = 3;
 constexpr int kMostDenied = 12;  // candidates that a prediction names and a picture denies
 constexpr std::size_t kStepCount = std::size(kSteps);
@@ -110,10 +111,10 @@ class Trials {
   // Between its pixels a spread picture needs all others.
   Result<double> draw(const Quality& march) {
     if (auto used = renderer_.setMarch(march); !used) return used.error();
-    if (march.spread > 0) return marchCost(renderer_.preview(view_), all_);
+    if (march.spread > 0) return marchCost(march, renderer_.preview(view_), all_);
     auto counters = renderer_.preview(view_, pixels_);
     if (!counters) return counters.error();
-    return marchCost(*counters, pixels_.size());
+    return marchCost(march, *counters, pixels_.size());
   }
   ImageF picked() const { return pick(renderer_.radiance(), pixels_); }
   Result<double> from(const ImageF& other) const {
@@ -179,8 +180,9 @@ Quality candidate(const Renderer& renderer, const View& view, double detailShare
   return out;
 }
 
-double marchCost(const FrameCounters& c, std::size_t pixels) {
-  return pixels ? (kLookUpCost * double(c.cells) + double(c.samples) + kRayCost * double(c.marchedPixels)) / double(pixels) : 0;
+double marchCost(const Quality& march, const FrameCounters& c, std::size_t pixels) {
+  const double all = kLookUpCost * double(c.cells) + double(c.samples) + kRayCost * double(c.marchedPixels);
+  return pixels ? all * (march.spread > 0 ? kSpreadCost : 1) / double(pixels) : 0;
 }
 
 Result<MarchChoice> chooseMarch(Renderer& renderer, const View& view, double exposure_ev, double tolerance_255, DrawnAs drawn) {

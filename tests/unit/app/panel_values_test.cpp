@@ -5,6 +5,7 @@
 
 #include "random32.h"
 #include "welkin/app/edit_history.h"
+#include "welkin/app/presets.h"
 #include "welkin/app/sun_place.h"
 
 namespace welkin::app {
@@ -78,6 +79,37 @@ TEST(SunPlace, TimesComeBack) {
   }
   EXPECT_EQ(utcText(1e6), "");
   EXPECT_EQ(utcText(std::nan("")), "");
+}
+
+TEST(Presets, EachIsFinerThanTheLast) {
+  for (std::size_t i = 1; i < kPresets.size(); ++i) {
+    EXPECT_GT(kPresets[i].budget_bytes, kPresets[i - 1].budget_bytes);
+    EXPECT_LT(kPresets[i].step, kPresets[i - 1].step);
+    EXPECT_LE(kPresets[i].spread, kPresets[i - 1].spread);
+  }
+}
+
+TEST(Presets, AreRecognisedAndKeepWhatIsTheScenes) {
+  Quality q;
+  q.depth = 11;
+  q.seed = 99;
+  q.detail = 500;
+  q.stepRule = StepRule::Node;
+  EXPECT_EQ(presetOf(q), "");
+  const std::map<std::string, Quality> own{{"mine", q}};
+  for (const Preset& preset : kPresets) {
+    ASSERT_TRUE(applyPreset(preset.name, q));
+    EXPECT_EQ(presetOf(q, own), preset.name);
+    EXPECT_EQ(q.depth, 11);
+    EXPECT_EQ(q.seed, 99u);
+    EXPECT_EQ(q.detail, 0);
+    EXPECT_EQ(q.stepRule, Quality{}.stepRule);
+  }
+  EXPECT_FALSE(applyPreset("best", q));
+  ASSERT_TRUE(applyPreset("mine", q, own));
+  EXPECT_EQ(presetOf(q, own), "mine");
+  q.step *= 1.01;
+  EXPECT_EQ(presetOf(q, own), "");
 }
 
 }  // namespace

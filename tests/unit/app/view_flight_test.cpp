@@ -110,6 +110,34 @@ TEST(ViewFlight, TheCameraFliesItAndAKeyEndsIt) {
   EXPECT_FALSE(camera.inFlight());
 }
 
+TEST(ViewFlight, AMovingCameraLeavesWithoutAJerk) {
+  FlyCamera camera(kEarth_m);
+  ASSERT_TRUE(camera.setView(toView(geographic(0, 0, 50'000, 20, -5), kEarth_m)));
+  camera.advance({.move = {0, 0.2, -1}}, 1);
+  const glm::dvec3 velocity = camera.velocity_m_s();
+  const View start = camera.view(), target = toView(geographic(3, 4, 1000, 90, 0), kEarth_m);
+  ASSERT_GT(glm::length(velocity), 10'000);
+  camera.flyTo(target);
+  EXPECT_EQ(camera.view().position_m, start.position_m);
+  glm::dvec3 last = start.position_m, lastVelocity = velocity;
+  const double dt_s = 1e-3;
+  for (int i = 0; camera.inFlight(); ++i) {
+    ASSERT_LT(i, 30'000);
+    camera.advance({}, dt_s);
+    const glm::dvec3 now = (camera.view().position_m - last) / dt_s;
+    // Of a free camera's braking, 62 km/s2, and the flight's own acceleration, 1760 km/s2 at the most, twice that; to stop at once would be
+    // 16,000.
+    ASSERT_LT(glm::length(now - lastVelocity), 4'000'000 * dt_s) << i;
+    if (i < 50) {
+      ASSERT_LT(glm::length(now - velocity * std::exp(-(i + 0.5) * dt_s / kDriveTime_s)), 0.02 * glm::length(velocity)) << i;
+    }
+    last = camera.view().position_m;
+    lastVelocity = now;
+  }
+  EXPECT_EQ(camera.view().position_m, target.position_m);
+  EXPECT_LT(glm::length(lastVelocity), 100);
+}
+
 TEST(Geographic, ComesBack) {
   test::Random32 random(3);
   for (int i = 0; i < 500; ++i) {

@@ -52,7 +52,7 @@ class FlyCamera {
   double speedFactor = 1;           // of the wheel
   bool moves() const { return flight_ || drive_ != glm::dvec3(0); }
 
-  // A smooth flight. goTo keeps heading, pitch, roll and field of view.
+  // A smooth flight, from a moving camera too. goTo keeps heading, pitch, roll and field of view.
   void flyTo(const View& view);
   void goTo(double latitude_deg, double longitude_deg, double altitude_m);
   bool inFlight() const { return flight_.has_value(); }
@@ -81,6 +81,7 @@ class FlyCamera {
   std::function<double(const glm::dvec3&)> ground_;
   std::optional<ViewFlight> flight_;
   double flightTime_s_ = 0;
+  glm::dvec3 glide_m_{0};              // from the flight's start to where the camera was
   std::optional<glm::dvec3> grabbed_;  // unit, planet frame
 };
 
