@@ -46,6 +46,7 @@ void Interface::end() {
 }
 
 bool Interface::wantsMouse() const { return ImGui::GetIO().WantCaptureMouse && !window_.mouseCaptured(); }
+bool Interface::busy() const { return ImGui::IsAnyItemActive(); }
 bool Interface::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
 
 }  // namespace welkin::window

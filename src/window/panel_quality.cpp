@@ -1,12 +1,39 @@
 #include "panels.h"
+#include "welkin/app/presets.h"
 #include "welkin/core/units.h"
 #include "widgets.h"
 
 namespace welkin::window {
+namespace {
+
+// A button for each preset; the one that holds is bright.
+void presets(Model& model) {
+  Quality& q = model.scene.quality;
+  const std::string now = app::presetOf(q);
+  const auto use = [&](Quality wanted) {
+    (wanted.budget_bytes != q.budget_bytes || wanted.depth != q.depth ? model.wanted.rebuild : model.wanted.march) = true;
+    q = wanted;
+  };
+  for (const app::Preset& preset : app::kPresets) {
+    if (now == preset.name) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    if (press(preset.name, "a budget, a step and a spread that go together")) {
+      Quality wanted = q;
+      app::apply(preset, wanted);
+      use(wanted);
+      markEdit("preset");
+    }
+    if (now == preset.name) ImGui::PopStyleColor();
+    ImGui::SameLine();
+  }
+  if (press("as loaded", "the scene's own quality")) use(model.asLoaded.quality), markEdit("quality as loaded");
+}
+
+}  // namespace
 
 void qualityPanel(Model& model) {
   Quality& q = model.scene.quality;
   const Quality& was = model.asLoaded.quality;
+  presets(model);
   bool march = false, rebuild = false;
   march |= number("step", q.step, was.step, {0.02, 4, "%.3g", true},
                   "length of a march segment, in units of the step rule; smaller is finer and slower")

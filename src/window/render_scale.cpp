@@ -17,16 +17,25 @@ app::Size RenderScale::sizeFor(app::Size window) const {
   return {edge(window.width), edge(window.height)};
 }
 
-void RenderScale::frame(double ms) {
+void RenderScale::frame(double ms, bool rest) {
+  if (automatic && rest != rest_) {
+    rest_ = rest, frames_ = 0;
+    if (rest) moving_ = step_;
+    else if (moving_ != step_) {
+      step_ = moving_;
+      return;
+    }
+  }
+  const double most_ms = rest_ ? kMostRest_ms : kMostFrame_ms;
   last_ms_[frames_++ % last_ms_.size()] = ms;
   if (!automatic || frames_ < last_ms_.size()) return;
   auto sorted = last_ms_;
   std::sort(sorted.begin(), sorted.end());
   const double median = sorted[sorted.size() / 2];
-  if (median > kMostFrame_ms && step_ > 0) {
+  if (median > most_ms && step_ > 0) {
     --step_, frames_ = 0;
     tries_ = std::min(tries_ + 1, kMostTries);
-  } else if (median * kRise < kMostFrame_ms && step_ + 1 < kScales.size() && frames_ >= kPatience << tries_) {
+  } else if (median * kRise < most_ms && step_ + 1 < kScales.size() && frames_ >= kPatience << tries_) {
     ++step_, frames_ = 0;
   }
 }

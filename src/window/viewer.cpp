@@ -23,9 +23,13 @@
 namespace welkin::window {
 namespace {
 
-constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25;
+constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
 constexpr std::uint64_t kFirstPictures = 8;  // not among the slowest: shaders are compiled for them
 constexpr double kSpareDetail = 1.4;         // for the next step of a flight
+
+bool sameView(const View& a, const View& b) {
+  return a.position_m == b.position_m && a.orientation == b.orientation && a.fov_deg == b.fov_deg && a.exposure_ev == b.exposure_ev;
+}
 
 class Viewer {
  public:
@@ -73,6 +77,9 @@ class Viewer {
     for (const Press& press : events.pressed)
       if (!interface_.wantsKeys()) Controls::press(model_, window_, press);
     controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
+    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.tape != Model::Tape::Idle || !sameView(model_.view(), last_))
+      moved_ms_ = now_ms;
+    last_ = model_.view();
     for (const auto& file : events.dropped) load(file);
     model_.runTape(dt_s);
     if (model_.playing) model_.time_s += dt_s * model_.timeSpeed;
@@ -111,7 +118,7 @@ class Viewer {
   }
 
   void timed(double frame_ms, const std::map<std::string, double>& parts_ms) {
-    model_.scale.frame(frame_ms);
+    if (model_.stats.leftOut != "nothing-moves") model_.scale.frame(frame_ms, rests());
     auto passes = model_.stats.passes;
     for (const auto& [name, ms] : parts_ms)
       if (name != "draw") passes[name].wall_ms = ms;  // its passes are told one by one
@@ -126,6 +133,12 @@ class Viewer {
     if (!renderer_) return;
     pace_.made(model_.stats.bricksGenerated, passes["bricks"].wall_ms + passes["light"].wall_ms);
     renderer_->setBricksPerFrame(pace_.perFrame());
+  }
+
+  // Has nobody moved or pressed anything for a while, and is the picture as sharp as its size lets it be?
+  bool rests() const {
+    return gpu::wall_ms() - moved_ms_ > kRest_ms && loader_.since_s() == 0 && renderer_ &&
+           model_.stats.sampleDetail >= 0.99 * renderer_->shownDetail(model_.view());
   }
 
   // What is asked for is done, or begun.
@@ -267,6 +280,8 @@ class Viewer {
   bool drawn_ = false;          // a picture of this renderer is there
   std::uint64_t pictures_ = 0;  // of this renderer
   bool idle_ = false;
+  View last_;
+  double moved_ms_ = 0;  // the last time that anything did
   double opened_ms_ = gpu::wall_ms(), reported_ms_ = 0, begun_ms_ = 0, pictured_ms_ = 0;
 };
 

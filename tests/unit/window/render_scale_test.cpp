@@ -48,6 +48,16 @@ TEST(RenderScale, OneSlowFrameChangesNothing) {
   EXPECT_EQ(settledScale(2, 6, scale, 8), 1);
 }
 
+TEST(RenderScale, SharperAtRestAndBackAtOnce) {
+  RenderScale scale;
+  const double moving = settledScale(12, 150, scale);
+  for (int i = 0; i < 1000; ++i) scale.frame(12 + 150 * scale.scale() * scale.scale(), true);
+  EXPECT_GT(scale.scale(), moving);
+  EXPECT_LE(12 + 150 * scale.scale() * scale.scale(), kMostRest_ms);
+  scale.frame(12, false);
+  EXPECT_EQ(scale.scale(), moving);
+}
+
 TEST(RenderScale, SizesOfTinyAndMinimisedWindows) {
   const RenderScale scale;
   EXPECT_EQ(scale.sizeFor({1280, 800}).width, 320);
