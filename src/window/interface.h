@@ -13,7 +13,7 @@ class Interface {
   void begin();  // letters follow the monitor's scale
   void end();    // draws
   bool wantsMouse() const;
-  bool busy() const;      // a field is held
+  bool busy() const;       // a field is held
   bool wantsKeys() const;  // a field of text is being edited
 
  private:

@@ -20,7 +20,8 @@ app::Size RenderScale::sizeFor(app::Size window) const {
 void RenderScale::frame(double ms, bool rest) {
   if (automatic && rest != rest_) {
     rest_ = rest, frames_ = 0;
-    if (rest) moving_ = step_;
+    if (rest)
+      moving_ = step_;
     else if (moving_ != step_) {
       step_ = moving_;
       return;

@@ -77,7 +77,8 @@ class Viewer {
     for (const Press& press : events.pressed)
       if (!interface_.wantsKeys()) Controls::press(model_, window_, press);
     controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
-    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.tape != Model::Tape::Idle || !sameView(model_.view(), last_))
+    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.tape != Model::Tape::Idle ||
+        !sameView(model_.view(), last_))
       moved_ms_ = now_ms;
     last_ = model_.view();
     for (const auto& file : events.dropped) load(file);
@@ -246,7 +247,7 @@ class Viewer {
       drawn_ = true;
       ++counts_.pictures, ++pictures_;
       counts_.nanPixels += model_.stats.counters.nanPixels;
-      counts_.holes += model_.stats.counters.holes;
+      if (model_.stats.sampleDetail >= 1) counts_.holes += model_.stats.counters.holes;  // before, the tree promises nothing
     }
     pictured_ms_ = gpu::wall_ms();
     if (renderer_ && drawn_)

@@ -25,7 +25,7 @@ bool choice(const char* label, int& index, std::span<const char* const> names, c
 bool tick(const char* label, bool& value, const char* explanation);
 bool press(const char* label, const char* explanation);            // a button
 std::string takeFinishedEdit();                                    // label of the field that was let go since the last call; empty: none
-void markEdit(const char* label);                           // by a button
+void markEdit(const char* label);                                  // by a button
 bool finishedEditIs(const std::string& label);                     // the same, and it stays
 const std::map<std::string, std::array<float, 4>>& fieldPlaces();  // of fields in the last frame: x0, y0, x1, y1; for tests
 void beginFields();                                                // of a frame
