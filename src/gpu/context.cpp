@@ -85,15 +85,8 @@ std::optional<Opened> open(const Candidate& candidate, bool debug) {
   EGLConfig config = nullptr;
   EGLint configs = 0;
   if (!eglBindAPI(EGL_OPENGL_API) || !eglChooseConfig(display, configAttributes, &config, 1, &configs)) return std::nullopt;
-  const EGLint contextAttributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                      4,
-                                      EGL_CONTEXT_MINOR_VERSION,
-                                      5,
-                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                      EGL_CONTEXT_OPENGL_DEBUG,
-                                      debug ? EGL_TRUE : EGL_FALSE,
-                                      EGL_NONE};
+  const EGLint contextAttributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_CONTEXT_OPENGL_DEBUG, debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
   EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, contextAttributes);
   if (context == EGL_NO_CONTEXT) return std::nullopt;
   if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
@@ -121,8 +114,7 @@ Result<std::unique_ptr<Context>> Context::createHeadless(const std::string& choi
     context->begin(debug);
     return context;
   }
-  return Error{"EGL: no device '" + choice +
-               "' gives an OpenGL 4.5 core context; install a driver, or Mesa's software one (libgl1-mesa-dri)"};
+  return Error{"EGL: no device '" + choice + "' gives an OpenGL 4.5 core context; install a driver, or Mesa's software one (libgl1-mesa-dri)"};
 }
 
 Result<std::unique_ptr<Context>> Context::ofCurrent() {

@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 
 struct Loader {
   std::vector<fs::path> roots;
-  std::set<std::string> done;      // each file once
-  std::vector<std::string> open;   // to find cycles
-  std::vector<std::string> names;  // index in #line
+  std::set<std::string> done;            // each file once
+  std::vector<std::string> open;         // to find cycles
+  std::vector<std::string> names;        // index in #line
   std::string out;
-  Defines defines;  // an include may name a define that holds the path
+  Defines defines;                       // an include may name a define that holds the path
 
   Result<void> add(const std::string& path, const std::string& from) {
     for (const auto& name : open)
@@ -31,10 +31,7 @@ struct Loader {
     if (!done.insert(path).second) return {};
     fs::path file;
     for (const auto& root : roots)
-      if (fs::exists(root / path)) {
-        file = root / path;
-        break;
-      }
+      if (fs::exists(root / path)) { file = root / path; break; }
     if (file.empty()) return Error{fmt::format("shader {}: not found (included from {})", path, from)};
     std::ifstream in(file);
     open.push_back(path);

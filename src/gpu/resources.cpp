@@ -51,39 +51,19 @@ void Buffer::clear() const { glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGE
 
 std::size_t formatBytes(GLenum format) {
   switch (format) {
-    case GL_R8:
-    case GL_R8UI:
-      return 1;
-    case GL_R16:
-    case GL_R16F:
-    case GL_RG8:
-    case GL_R16UI:
-      return 2;
-    case GL_RG16:
-    case GL_RG16F:
-    case GL_R32F:
-    case GL_R32UI:
-    case GL_RGBA8:
-    case GL_SRGB8_ALPHA8:
-      return 4;
-    case GL_RGBA16F:
-    case GL_RGBA16:
-    case GL_RG32F:
-    case GL_RG32UI:
-      return 8;
-    case GL_RGBA32F:
-    case GL_RGBA32UI:
-      return 16;
-    default:
-      return 0;
+    case GL_R8: case GL_R8UI: return 1;
+    case GL_R16: case GL_R16F: case GL_RG8: case GL_R16UI: return 2;
+    case GL_RG16: case GL_RG16F: case GL_R32F: case GL_R32UI: case GL_RGBA8: case GL_SRGB8_ALPHA8: return 4;
+    case GL_RGBA16F: case GL_RGBA16: case GL_RG32F: case GL_RG32UI: return 8;
+    case GL_RGBA32F: case GL_RGBA32UI: return 16;
+    default: return 0;
   }
 }
 
 Result<Texture> Texture::create(MemoryAccount& account, std::string what, const TextureSpec& spec) {
   const std::size_t texel = formatBytes(spec.format);
   if (texel == 0) return Error{fmt::format("memory: {}: texture format 0x{:x} is not in formatBytes()", what, spec.format)};
-  const std::size_t bytes =
-      texel * static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * static_cast<std::size_t>(spec.depth);
+  const std::size_t bytes = texel * static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * static_cast<std::size_t>(spec.depth);
   if (!account.charge(what, bytes, spec.frameTarget)) return overBudget(account, what, bytes);
   Texture texture;
   texture.bytes_ = bytes;
@@ -91,16 +71,12 @@ Result<Texture> Texture::create(MemoryAccount& account, std::string what, const 
   texture.what_ = std::move(what);
   texture.account_ = &account;
   glCreateTextures(spec.target, 1, &texture.id_);
-  if (spec.target == GL_TEXTURE_2D)
-    glTextureStorage2D(texture.id_, 1, spec.format, spec.width, spec.height);
-  else
-    glTextureStorage3D(texture.id_, 1, spec.format, spec.width, spec.height, spec.depth);
+  if (spec.target == GL_TEXTURE_2D) glTextureStorage2D(texture.id_, 1, spec.format, spec.width, spec.height);
+  else glTextureStorage3D(texture.id_, 1, spec.format, spec.width, spec.height, spec.depth);
   glTextureParameteri(texture.id_, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(spec.filter));
   glTextureParameteri(texture.id_, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(spec.filter));
-  for (GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTextureParameteri(texture.id_, axis, static_cast<GLint>(spec.wrap));
-  const bool integer = spec.format == GL_R8UI || spec.format == GL_R16UI || spec.format == GL_R32UI || spec.format == GL_RG32UI ||
-                       spec.format == GL_RGBA32UI;
+  for (GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) glTextureParameteri(texture.id_, axis, static_cast<GLint>(spec.wrap));
+  const bool integer = spec.format == GL_R8UI || spec.format == GL_R16UI || spec.format == GL_R32UI || spec.format == GL_RG32UI || spec.format == GL_RGBA32UI;
   glClearTexImage(texture.id_, 0, integer ? GL_RED_INTEGER : GL_RED, integer ? GL_UNSIGNED_INT : GL_FLOAT, nullptr);
   return texture;
 }

@@ -1,3 +1,4 @@
+#include "welkin/physics/air.h"
 #include "welkin/render/renderer.h"
 
 #include <fmt/format.h>
@@ -7,27 +8,27 @@
 #include <future>
 #include <limits>
 
-#include "render/albedo_picture.h"
 #include "render/bricks/brick_passes.h"
 #include "render/march/cloud_passes.h"
+#include "render/albedo_picture.h"
 #include "render/tree/resident_tree.h"
 #include "welkin/clouds/opaque_deck.h"
-#include "welkin/physics/air.h"
 #include "welkin/render/composite/composite_pass.h"
 #include "welkin/render/exposure/exposure_pass.h"
 #include "welkin/render/sky/sky_tables.h"
-#include "welkin/shared/bindings.glsl.h"
 #include "welkin/shared/counters.glsl.h"
+
+#include "welkin/shared/bindings.glsl.h"
 
 namespace welkin {
 namespace {
 
-constexpr std::uint64_t kLatency = 2;          // edits computed from frame k are applied at frame k + 2
-constexpr double kVoxelPixels = 0.78;          // finer is noise; at 180 lines this keeps K inside the octree maps (kMapReach)
-constexpr std::uint32_t kSettleBricks = 8192;  // bricks of one step while settling: nothing is drawn in between
-constexpr int kMostSettleSteps = 4000;         // far over the count a tree of the largest budget needs
-constexpr int kRound = 16;                     // frames until every pixel was marched
-constexpr std::uint64_t kSmallBuffers = 4096;  // camera block, counters and their alignment
+constexpr std::uint64_t kLatency = 2;            // edits computed from frame k are applied at frame k + 2
+constexpr double kVoxelPixels = 0.78;            // finer is noise; at 180 lines this keeps K inside the octree maps (kMapReach)
+constexpr std::uint32_t kSettleBricks = 8192;    // bricks of one step while settling: nothing is drawn in between
+constexpr int kMostSettleSteps = 4000;           // far over the count a tree of the largest budget needs
+constexpr int kRound = 16;                       // frames until every pixel was marched
+constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and their alignment
 
 // A voxel is node / 7: at the far end of its level's range it is kVoxelPixels wide, at the near end twice that.
 double pixelDetail(const ViewFrame& view, int height) { return height / (2 * view.tanY * 7 * kVoxelPixels); }
@@ -45,11 +46,7 @@ std::uint64_t treeBudget(const Scene& scene, const gpu::MemoryAccount& account, 
 
 struct Renderer::Impl {
   Impl(gpu::Context& c, const Scene& s, const RenderSettings& r)
-      : context(c),
-        scene(sceneFor(s, r.forced)),
-        settings(r),
-        plan(planFrame(s, planFor())),
-        account(s.quality.budget_bytes),
+      : context(c), scene(sceneFor(s, r.forced)), settings(r), plan(planFrame(s, planFor())), account(s.quality.budget_bytes),
         timer(c.device().software) {
     timer.enabled = r.timing;
   }
@@ -58,7 +55,7 @@ struct Renderer::Impl {
   Scene scene;
   RenderSettings settings;
   FramePlan plan;
-  gpu::MemoryAccount account;  // outlives everything charged to it
+  gpu::MemoryAccount account;   // outlives everything charged to it
   gpu::PassTimer timer;
   gpu::Buffer camera, counters;
   std::optional<SkyTables> sky;
@@ -75,10 +72,10 @@ struct Renderer::Impl {
   std::optional<BrickPasses> bricks;
   std::optional<CloudPasses> clouds;
   std::unique_ptr<Streamer> streamer;
-  std::deque<std::uint64_t> asked;  // frames whose edits are not taken yet
-  FrameEdits last;                  // the newest applied edits, without their lists
+  std::deque<std::uint64_t> asked;   // frames whose edits are not taken yet
+  FrameEdits last;                   // the newest applied edits, without their lists
   std::uint64_t frameNumber = 0;
-  std::uint64_t step = 0;  // number of the next input to the worker
+  std::uint64_t step = 0;            // number of the next input to the worker
 
   std::vector<std::string> notes;
 
@@ -90,22 +87,20 @@ struct Renderer::Impl {
   double shellTop_m() const { return plan.air ? airTop_m(scene) : source ? std::max(source->top_m(), 1.0) : 1.0; }
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
   void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats, bool lightNow = true);
-  float greatestDetail = 1e6f;  // of this picture's pixels
-  bool away = false;            // the last frame was drawn bare: nothing is streamed since
-  std::optional<View> shown;    // of the last frame
+  float greatestDetail = 1e6f;      // of this picture's pixels
+  bool away = false;                // the last frame was drawn bare: nothing is streamed since
+  std::optional<View> shown;        // of the last frame
   std::uint64_t shownNan = 0;
-  std::uint64_t stillFrames = 0;  // of the same view and tree
-  int marchedFrames = 0;          // of the same, each a sixteenth of the pixels
+  std::uint64_t stillFrames = 0;    // of the same view and tree
+  int marchedFrames = 0;            // of the same, each a sixteenth of the pixels
   void updateTreeBlock(glm::dvec3 camera_planet);
   void workOnSky();
   void useAir(const Scene& changed);
   Result<void> setAir(const Scene& changed, AirChange how);
-  ViewFrame frameOf(const View& view) const {
-    return viewFrame(view, scene.planet.radius_m, shellTop_m(), settings.width, settings.height);
-  }
-  FrameCounters counted() const;                                         // since beginPicture()
+  ViewFrame frameOf(const View& view) const { return viewFrame(view, scene.planet.radius_m, shellTop_m(), settings.width, settings.height); }
+  FrameCounters counted() const;  // since beginPicture()
   void drawAside(const View& view, const std::function<void()>& march);  // a picture that leaves history, tree and exposure alone
-  void beginPicture(const ViewFrame& frame, bool bare = false);          // camera, counters, sky
+  void beginPicture(const ViewFrame& frame, bool bare = false);  // camera, counters, sky
   // Composite and exposure. sinceLast_s: ExposurePass::meter; none: the exposure stays where it is, unless there is none yet.
   void endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s, bool bare = false);
   bool bareNow(const View& view, FrameStats& stats);
@@ -140,13 +135,10 @@ Result<void> Renderer::Impl::create() {
   AlbedoPicture albedo;
   if (plan.albedoMap && !scene.planet.albedoMap.empty()) {
     auto picture = loadAlbedoPicture(scene);
-    if (!picture)
-      note(picture.error().message + ": the ground is plain");
-    else
-      albedo = std::move(*picture);
+    if (!picture) note(picture.error().message + ": the ground is plain");
+    else albedo = std::move(*picture);
   }
-  auto compositePass =
-      CompositePass::create(account, scene, CompositeParts(plan), settings.width, settings.height, albedo.width ? &albedo : nullptr);
+  auto compositePass = CompositePass::create(account, scene, CompositeParts(plan), settings.width, settings.height, albedo.width ? &albedo : nullptr);
   if (!compositePass) return compositePass.error();
   composite.emplace(std::move(*compositePass));
   if (plan.metered) {
@@ -160,11 +152,9 @@ Result<void> Renderer::Impl::create() {
   if (!made) return made.error();
   source = std::move(*made);
   if (!source->note().empty()) note(source->note());
-  const TreeLayout layout =
-      TreeLayout::fit(treeBudget(scene, account, BrickPasses::bytes(*source)), std::uint32_t(scene.quality.depth), settings.brickBits);
+  const TreeLayout layout = TreeLayout::fit(treeBudget(scene, account, BrickPasses::bytes(*source)), std::uint32_t(scene.quality.depth), settings.brickBits);
   if (layout.bricks == 0) {
-    const std::uint64_t least =
-        account.used() + BrickPasses::bytes(*source) + kSmallBuffers + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
+    const std::uint64_t least = account.used() + BrickPasses::bytes(*source) + kSmallBuffers + TreeLayout::leastBytes(std::uint32_t(scene.quality.depth));
     return Error{fmt::format("budget: {} MiB is too little for this scene at depth {}: the least that works is {} MiB",
                              scene.quality.budget_bytes >> 20, scene.quality.depth, (least + (1 << 20) - 1) >> 20)};
   }
@@ -295,10 +285,8 @@ Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
 void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s, bool bare) {
   const std::optional<double> fixed_ev = view.exposure_ev ? view.exposure_ev : scene.output.exposure_ev;
   timer.begin("composite");
-  if (bare)
-    composite->runBare(frame.block, fixed_ev.value_or(0));
-  else
-    composite->run(frame.block, fixed_ev.value_or(0));
+  if (bare) composite->runBare(frame.block, fixed_ev.value_or(0));
+  else composite->run(frame.block, fixed_ev.value_or(0));
   timer.end();
   if (!exposure) return;
   timer.begin("exposure");
@@ -420,7 +408,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
       generate = std::move(edits.generate);
       r.apply(std::move(edits), frame.position_m, stats);
     } else {
-      FrameEdits nothing = r.last;  // the camera moved: the maps follow
+      FrameEdits nothing = r.last;   // the camera moved: the maps follow
       nothing.nodes.clear();
       nothing.dirty.clear();
       nothing.light.clear();
@@ -459,7 +447,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   std::map<std::uint32_t, BrickJob> lit;
   int batches = 0;
   const std::uint64_t first = r.step;  // edits asked for before answer to another view: they are applied, but say nothing about this one
-  bool stopped = false;                // what was asked for by then is still made, so that no frame finds it all at once
+  bool stopped = false;  // what was asked for by then is still made, so that no frame finds it all at once
   for (int i = 0; i < kMostSettleSteps; ++i) {
     if (r.asked.empty() && stopped) break;
     if (r.asked.empty()) r.ask(frame, kSettleBricks, true);
@@ -587,8 +575,7 @@ TreeData Renderer::tree(const View& view) {
 Result<void> Renderer::drawWith(const View& view, std::span<const shared::CloudWeights> clouds) {
   Impl& r = *impl_;
   if (r.plan.clouds && clouds.size() != std::size_t(r.settings.width) * std::size_t(r.settings.height))
-    return Error{
-        fmt::format("expected what the clouds bring for {} x {} pixels, got {}", r.settings.width, r.settings.height, clouds.size())};
+    return Error{fmt::format("expected what the clouds bring for {} x {} pixels, got {}", r.settings.width, r.settings.height, clouds.size())};
   Result<void> shown;
   r.drawAside(view, [&] { shown = r.clouds->show(r.account, r.scene, clouds); });
   return shown;
@@ -620,7 +607,9 @@ const FramePlan& Renderer::plan() const { return impl_->plan; }
 const Scene& Renderer::scene() const { return impl_->scene; }
 const gpu::MemoryAccount& Renderer::memory() const { return impl_->account; }
 
-std::vector<std::string> Renderer::notes() const { return impl_->notes; }
+std::vector<std::string> Renderer::notes() const {
+  return impl_->notes;
+}
 
 Result<std::uint64_t> leastBudget(gpu::Context& context, const Scene& scene) {
   Scene plenty = scene;

@@ -53,10 +53,8 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
   if (auto made = passes.createTargets(account, width, height); !made) return made.error();
   const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
   passes.defines_ = tree.defines();
-  passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)},
-                                                 {"OPT_GROUND", onOff(plan.ground && plan.sun)},
-                                                 {"OPT_AUX", onOff(plan.aux)},
-                                                 {"OPT_HISTORY", onOff(plan.history)}});
+  passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)},
+                                                 {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
   if (auto used = passes.use(account, quality); !used) return used.error();
   if (!plan.history) return passes;
   auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
@@ -100,8 +98,7 @@ Result<void> CloudPasses::resize(gpu::MemoryAccount& account, int width, int hei
 
 Result<void> CloudPasses::createList(gpu::MemoryAccount& account) {
   if (pixels_.id()) return {};
-  auto pixels =
-      gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width_) * std::size_t(height_) * 4, GL_DYNAMIC_STORAGE_BIT, true);
+  auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width_) * std::size_t(height_) * 4, GL_DYNAMIC_STORAGE_BIT, true);
   if (!pixels) return pixels.error();
   pixels_ = std::move(*pixels);
   return {};
@@ -116,8 +113,7 @@ Result<void> CloudPasses::use(gpu::MemoryAccount& account, const Quality& qualit
     march_->list = std::move(*list);
   }
   if (spread_.valid()) return {};
-  auto spread =
-      gpu::Program::compute("pass/spread/spread.comp", {{"OPT_AUX", aux_[0].id() ? "1" : "0"}, {"OPT_HISTORY", history_ ? "1" : "0"}});
+  auto spread = gpu::Program::compute("pass/spread/spread.comp", {{"OPT_AUX", aux_[0].id() ? "1" : "0"}, {"OPT_HISTORY", history_ ? "1" : "0"}});
   if (!spread) return spread.error();
   spread_ = std::move(*spread);
   return {};
@@ -186,8 +182,7 @@ void CloudPasses::marchWhole(const Scene& scene, std::optional<double> seen_ev, 
 }
 
 void CloudPasses::setLight(const gpu::Program& program, const Scene& scene) const {
-  const glm::vec3 irradiance =
-      scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
+  const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
   const float albedo = float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3;
   program.set("u_sunIrradiance", irradiance);
   program.set("u_groundAlbedo", albedo);
