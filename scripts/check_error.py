@@ -69,7 +69,7 @@ def near(c):
 
 
 def tolerance(c):
-    got = c.report("tolerance", "converge", "benchmarks/error/views.json", "--tolerance", ",".join(f"{a:g}" for a in ASKED), "--repeat", "3")
+    got = c.report("tolerance", "converge", "benchmarks/error/views.json", "--tolerance", ",".join(f"{a:g}" for a in ASKED), "--size", "160x90", "--repeat", "3")
     if not got:
         return
     views = got["views"]

@@ -8,18 +8,24 @@ layout(binding = WK_BRICK_UNIT) uniform sampler3D u_bricks[BRICK_TEXTURES];
 
 // The node that holds position p at `level` or at the deepest resident level above: from the map of `mapLevel` (from the root, for a
 // level above the coarsest map), then down the nodes. The word's level is the node's own.
-uint lookUp(uvec3 p, uint level, uint mapLevel) {
-  bool fromRoot = level < tree.mapBase;
-  uint at = fromRoot ? 0u : min(level, mapLevel);
+struct Found {
+  uint word, parent;  // the parent's if the way down began above `level`: at most at `from`
+};
+Found lookUp(uvec3 p, uint level, uint from, uint mapLevel) {
+  bool fromRoot = from < tree.mapBase;
+  uint at = fromRoot ? 0u : min(from, mapLevel);
   uint index = fromRoot ? tree.firstNode : mapEntry(p >> (32u - at), at, tree.mapBase);
   uvec2 entry = texelFetch(u_tree, int(index)).xy;   // a map entry carries its level, the root has level 0
+  uint parent = entry.x;
   while (at < level && entry.y != kNoGroup && !wordEmpty(entry.x)) {
+    parent = entry.x;
     entry = texelFetch(u_tree, int(tree.firstNode + entry.y + childOctant(p, at))).xy;
     at++;
     entry.x |= at << 27u;
   }
-  return entry.x;
+  return Found(entry.x, parent);
 }
+uint lookUp(uvec3 p, uint level, uint mapLevel) { return lookUp(p, level, level, mapLevel).word; }
 
 vec3 atlasScale() { return vec3(1.0 / float(kAtlasX * 8u), 1.0 / float(kAtlasY * 8u), tree.atlasDepthInverse); }
 
