@@ -5,10 +5,11 @@ FLY ?= # further options of `welkin fly`, for instance FLY="--size 640x360"
 CHECK ?= --json benchmarks/results/check-orbit.json # further options of scripts/check_orbit.py, for instance CHECK="--only speed --quick"
 SKY ?= --json benchmarks/results/check-sky.json # further options of scripts/check_sky.py, for instance SKY="--only accuracy --quick"
 ERROR ?= --json benchmarks/results/check-error.json # further options of scripts/check_error.py, for instance ERROR="--only near"
+WINDOW ?= --json benchmarks/results/check-window.json # further options of scripts/check_window.py, for instance WINDOW="--only panels --quick"
 TRUTH ?= # further options of scripts/make_truth.py, for instance TRUTH="--only space --force"
 JOBS ?= $(shell nproc)
 
-.PHONY: all help build fly test data setup extras check-orbit check-sky check-error truth figures install format format-check clean
+.PHONY: all help build fly test data setup extras check-orbit check-sky check-error check-window truth figures install format format-check clean
 all: build
 
 help: ## this list
@@ -41,6 +42,10 @@ check-sky: setup ## what must hold for the clear sky, line by line
 check-error: setup data ## what must hold of error against run time, line by line
 	@scripts/build.sh $(BUILD) $(JOBS) ON
 	@/usr/bin/python3 scripts/check_error.py --build $(BUILD) --out $(OUT)/check-error $(ERROR)
+
+check-window: setup data ## what must hold of the window, line by line, on a display of its own
+	@scripts/build.sh $(BUILD) $(JOBS) ON
+	@/usr/bin/python3 scripts/check_window.py --build $(BUILD) --out $(OUT)/check-window $(WINDOW)
 
 truth: build ## make anew what has changed of the truth of the sky, tests/truth/sky/
 	@/usr/bin/python3 scripts/make_truth.py --build $(BUILD) $(TRUTH)

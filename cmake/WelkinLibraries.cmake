@@ -9,6 +9,10 @@ find_package(CLI11 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
 
+# The window, which only the program has.
+find_package(glfw3 3.3 REQUIRED)
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+
 find_path(LODEPNG_INCLUDE lodepng.h REQUIRED)
 find_library(LODEPNG_LIBRARY lodepng REQUIRED)
 add_library(welkin_lodepng INTERFACE)

@@ -7,7 +7,9 @@ packages=(
   g++ cmake ninja-build ccache pkg-config python3-glad          # to build
   libglm-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libcli11-dev liblodepng-dev libopenexr-dev libsodium-dev libstb-dev
   libegl-dev libopengl-dev libgl-dev libegl-mesa0 libgl1-mesa-dri   # OpenGL without a window, in software if need be
+  libglfw3-dev libimgui-dev libx11-dev fonts-dejavu-core        # the window
   libgtest-dev libgmock-dev                                     # tests
+  xvfb xauth xdotool                                            # tests of the window
   python3-matplotlib                                            # the plot of a flight
 )
 needed=true

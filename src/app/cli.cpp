@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "welkin/app/build_info.h"
 #include "welkin/core/files.h"
 #include "welkin/core/log.h"
@@ -90,7 +90,7 @@ void addOutputOptions(CLI::App& command, CommonOptions& options, const char* jso
   command.add_flag("--quiet,-q", options.quiet, "no log lines and no progress bar, only warnings and errors");
 }
 
-int runProgram(int argc, const char* const* argv) {
+int runProgram(int argc, const char* const* argv, const AddCommand& more) {
   std::string commandLine = "welkin";
   for (int i = 1; i < argc; ++i) commandLine += std::string(" ") + argv[i];
   CLI::App app("Welkin draws a whole planet's air and clouds, from orbit down to the inside of a cloud.", "welkin");
@@ -99,6 +99,7 @@ int runProgram(int argc, const char* const* argv) {
   app.set_version_flag("--version", buildText());
   app.require_subcommand(1);
   Action action;
+  if (more) more(app, action);
   addRender(app, action);
   addFly(app, action, commandLine);
   addPlan(app, action);

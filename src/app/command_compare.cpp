@@ -1,7 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "welkin/core/files.h"
 #include "welkin/measure/flip.h"
 #include "welkin/measure/image_compare.h"

@@ -1,4 +1,4 @@
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "welkin/app/converge.h"
 #include "welkin/app/tolerance_sweep.h"
 

@@ -1,4 +1,4 @@
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "welkin/app/flight.h"
 
 namespace welkin::app {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "welkin/app/build_info.h"
 #include "welkin/app/video.h"
 #include "welkin/core/files.h"

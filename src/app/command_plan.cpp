@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "plan_measure.h"
 #include "welkin/app/stop.h"
 #include "welkin/core/files.h"

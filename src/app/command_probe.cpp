@@ -1,4 +1,4 @@
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "probe_clouds.h"
 #include "welkin/app/probe_csv.h"
 #include "welkin/core/files.h"

@@ -2,7 +2,7 @@
 #include <array>
 #include <chrono>
 
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "welkin/app/checksum.h"
 #include "welkin/app/draw.h"
 #include "welkin/app/stop.h"

@@ -1,7 +1,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "commands.h"
+#include "welkin/app/commands.h"
 #include "welkin/app/stop.h"
 #include "welkin/app/stress_map.h"
 #include "welkin/core/files.h"

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cstring>
+#include <mutex>
 #include <optional>
 
 #include "welkin/core/log.h"
@@ -60,6 +61,17 @@ std::vector<Candidate> candidates(const std::string& choice) {
   return result;
 }
 
+// The entry points are the same for all contexts: they are looked up once, and never while another thread calls them.
+bool haveGl() {
+  static std::once_flag loaded;
+  std::call_once(loaded, [] { gladLoaderLoadGL(); });
+  GLint major = 0, minor = 0;
+  if (!glad_glGetIntegerv) return false;
+  glGetIntegerv(GL_MAJOR_VERSION, &major);
+  glGetIntegerv(GL_MINOR_VERSION, &minor);
+  return GLAD_GL_VERSION_4_5 && major * 10 + minor >= 45;
+}
+
 struct Opened {
   EGLDisplay display;
   EGLContext context;
@@ -91,7 +103,7 @@ Result<std::unique_ptr<Context>> Context::createHeadless(const std::string& choi
   for (const Candidate& candidate : candidates(choice)) {
     const auto opened = open(candidate, debug);
     if (!opened) continue;
-    if (!gladLoaderLoadGL() || !GLAD_GL_VERSION_4_5) {
+    if (!haveGl()) {
       eglMakeCurrent(opened->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
       eglDestroyContext(opened->display, opened->context);
       continue;
@@ -99,20 +111,32 @@ Result<std::unique_ptr<Context>> Context::createHeadless(const std::string& choi
     auto context = std::unique_ptr<Context>(new Context);
     context->display_ = opened->display;
     context->context_ = opened->context;
-    context->device_ = {text(GL_RENDERER), text(GL_VERSION), text(GL_VENDOR), isSoftware(text(GL_RENDERER))};
-    if (debug) {
-      glEnable(GL_DEBUG_OUTPUT);
-      glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-      glDebugMessageCallback(onDebugMessage, context.get());
-    }
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    context->begin(debug);
     return context;
   }
   return Error{"EGL: no device '" + choice + "' gives an OpenGL 4.5 core context; install a driver, or Mesa's software one (libgl1-mesa-dri)"};
 }
 
+Result<std::unique_ptr<Context>> Context::ofCurrent() {
+  if (!haveGl()) return Error{"OpenGL 4.5 is needed; this machine gives " + (glad_glGetString ? text(GL_VERSION) : std::string("none"))};
+  auto context = std::unique_ptr<Context>(new Context);
+  context->begin(true);
+  return context;
+}
+
+void Context::begin(bool debug) {
+  device_ = {text(GL_RENDERER), text(GL_VERSION), text(GL_VENDOR), isSoftware(text(GL_RENDERER))};
+  if (debug) {
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(onDebugMessage, this);
+  }
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
 Context::~Context() {
+  if (!context_) return;  // somebody else's
   // The display is left initialised: terminating it unloads the driver while other contexts of the process may still use it.
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);

@@ -95,4 +95,14 @@ void Texture::swap(Texture& o) noexcept {
   std::swap(account_, o.account_);
 }
 
+void copyScaled(const Texture& from, const Texture& to, GLenum filter) {
+  GLuint frames[2];
+  glCreateFramebuffers(2, frames);
+  glNamedFramebufferTexture(frames[0], GL_COLOR_ATTACHMENT0, from.id(), 0);
+  glNamedFramebufferTexture(frames[1], GL_COLOR_ATTACHMENT0, to.id(), 0);
+  glBlitNamedFramebuffer(frames[0], frames[1], 0, 0, from.spec().width, from.spec().height, 0, 0, to.spec().width, to.spec().height,
+                         GL_COLOR_BUFFER_BIT, filter);
+  glDeleteFramebuffers(2, frames);
+}
+
 }  // namespace welkin::gpu

@@ -201,6 +201,7 @@ void Renderer::Impl::ask(const ViewFrame& view, std::uint32_t maxBricks, bool sn
   input.frame = step;
   input.camera = selectionCamera(view, settings.height);
   input.maxBricks = maxBricks;
+  input.detailLimit = settings.spareDetail * input.camera.pixelDetail;
   input.snap = snap;
   input.results = bricks->results(step >= kLatency && !snap ? step - kLatency : step);
   asked.push_back(step++);
@@ -421,7 +422,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
     r.timer.end();
-    if (!r.asked.empty() || haveEdits || back || r.step == 0 || r.settings.waitForEdits) r.ask(frame, r.settings.bricksPerFrame, false);
+    if (r.asked.size() < kLatency) r.ask(frame, r.settings.bricksPerFrame, false);
   } else {
     r.endPicture(frame, view, sinceLast_s, bare);
   }
@@ -446,7 +447,9 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   std::map<std::uint32_t, BrickJob> lit;
   int batches = 0;
   const std::uint64_t first = r.step;  // edits asked for before answer to another view: they are applied, but say nothing about this one
+  bool stopped = false;  // what was asked for by then is still made, so that no frame finds it all at once
   for (int i = 0; i < kMostSettleSteps; ++i) {
+    if (r.asked.empty() && stopped) break;
     if (r.asked.empty()) r.ask(frame, kSettleBricks, true);
     FrameEdits edits = r.streamer->take(r.asked.front());
     r.asked.pop_front();
@@ -460,7 +463,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
     made += generate.size();
     stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     const double left = r.last.stats.pendingBricks;
-    if (progress && !progress(double(made) / std::max(1.0, double(made) + left))) break;
+    if (progress && !stopped) stopped = !progress(double(made) / std::max(1.0, double(made) + left));
     if (r.last.frame >= first && r.last.stats.settled && generate.empty() && r.asked.empty()) break;
   }
   // Light is made once all bricks are there, as nobody looks before. If it was made before, the first bricks' neighbours were still coarse.
@@ -487,6 +490,40 @@ Result<void> Renderer::setMarch(const Quality& quality) {
   now.step = quality.step, now.detail = quality.detail, now.spread = quality.spread;
   return impl_->clouds ? impl_->clouds->use(impl_->account, now) : Result<void>{};
 }
+
+Result<void> Renderer::setOutput(const Output& output) {
+  Impl& r = *impl_;
+  Scene next = r.scene;
+  next.output = output;
+  const FramePlan plan = planFrame(next, r.planFor());
+  std::optional<ExposurePass> exposure;
+  if (plan.metered) {
+    auto made = ExposurePass::create(r.account, next);
+    if (!made) return made.error();
+    exposure.emplace(std::move(*made));
+  }
+  if (plan.metered != r.plan.metered || output.toneCurve != r.scene.output.toneCurve)
+    if (auto used = r.composite->useOutput(CompositeParts(plan), output.toneCurve); !used) return used;
+  r.scene.output = output;
+  r.plan = plan;
+  r.exposure.reset();
+  if (exposure) r.exposure.emplace(std::move(*exposure));
+  r.stillFrames = 0, r.marchedFrames = 0;
+  return {};
+}
+
+void Renderer::setBricksPerFrame(std::uint32_t most) { impl_->settings.bricksPerFrame = most; }
+
+Result<void> Renderer::resize(int width, int height) {
+  Impl& r = *impl_;
+  if (width == r.settings.width && height == r.settings.height) return {};
+  r.settings.width = width, r.settings.height = height;
+  r.shown.reset(), r.stillFrames = 0, r.marchedFrames = 0;
+  if (auto made = r.composite->resize(width, height); !made) return made;
+  return r.clouds ? r.clouds->resize(r.account, width, height) : Result<void>{};
+}
+
+const gpu::Texture& Renderer::shown() const { return impl_->composite->display(); }
 
 FrameCounters Renderer::preview(const View& view) {
   Impl& r = *impl_;

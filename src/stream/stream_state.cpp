@@ -227,6 +227,9 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
   if (!planted) plant(edits);
   receive(input.results);
   motion.advance(input.camera, input.snap);
+  const double limit = input.detailLimit > 0 ? std::min(input.detailLimit, settings.detailLimit > 0 ? settings.detailLimit : kGreatestDetail)
+                                             : settings.detailLimit;
+  if (limit != selectionSettings.detailLimit) selectionSettings.detailLimit = limit, selectionStale = true;
   const bool work = selectionStale || motion.changed() || !input.results.empty();
   if (work) selectionStale = !reselect();
   edits.generate = jobs.take(input.maxBricks);

@@ -65,24 +65,38 @@ Result<CompositePass> CompositePass::create(gpu::MemoryAccount& account, const S
                                             const AlbedoPicture* albedo) {
   CompositePass pass;
   pass.account_ = &account;
-  pass.width_ = width, pass.height_ = height;
   pass.use(scene);
   pass.parts_ = parts;
   pass.toneCurve_ = scene.output.toneCurve;
   auto program = composite(parts, albedo != nullptr, pass.toneCurve_);
   if (!program) return program.error();
   pass.program_ = std::move(*program);
-  if (parts.linear) {
-    auto radiance = target(account, GL_RGBA32F, width, height);
-    if (!radiance) return radiance.error();
-    pass.radiance_ = std::move(*radiance);
-  }
-  auto display = target(account, GL_RGBA8, width, height);
-  if (!display) return display.error();
-  pass.display_ = std::move(*display);
+  if (auto r = pass.resize(width, height); !r) return r.error();
   if (albedo)
     if (auto r = pass.loadAlbedo(account, *albedo); !r) return r.error();
   return pass;
+}
+
+Result<void> CompositePass::resize(int width, int height) {
+  width_ = width, height_ = height;
+  if (parts_->linear) {
+    auto radiance = target(*account_, GL_RGBA32F, width, height);
+    if (!radiance) return radiance.error();
+    radiance_ = std::move(*radiance);
+  }
+  auto display = target(*account_, GL_RGBA8, width, height);
+  if (!display) return display.error();
+  display_ = std::move(*display);
+  return {};
+}
+
+Result<void> CompositePass::useOutput(const CompositeParts& parts, ToneCurve curve) {
+  auto program = composite(parts, albedoMap_ != 0, curve);
+  if (!program) return program.error();
+  program_ = std::move(*program);
+  bare_ = {};
+  parts_ = parts, toneCurve_ = curve;
+  return resize(width_, height_);
 }
 
 Result<void> CompositePass::prepareBare() {

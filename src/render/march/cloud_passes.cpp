@@ -48,9 +48,23 @@ ViewFrame viewFrame(const View& view, double planetRadius_m, double shellTop_m, 
 Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const ResidentTree& tree, int width, int height, const FramePlan& plan,
                                         const Quality& quality) {
   CloudPasses passes;
-  passes.width_ = width;
-  passes.height_ = height;
   passes.history_ = plan.history;
+  passes.auxWanted_ = plan.aux;
+  if (auto made = passes.createTargets(account, width, height); !made) return made.error();
+  const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
+  passes.defines_ = tree.defines();
+  passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)},
+                                                 {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
+  if (auto used = passes.use(account, quality); !used) return used.error();
+  if (!plan.history) return passes;
+  auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
+  if (!reproject) return reproject.error();
+  passes.reproject_ = std::move(*reproject);
+  return passes;
+}
+
+Result<void> CloudPasses::createTargets(gpu::MemoryAccount& account, int width, int height) {
+  width_ = width, height_ = height;
   const auto target = [&](gpu::Texture& out, gpu::TextureSpec spec) -> Result<void> {
     spec.frameTarget = true;
     auto made = gpu::Texture::create(account, "cloud history", spec);
@@ -58,25 +72,28 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
     out = std::move(*made);
     return {};
   };
-  for (int i = 0; i < (plan.history ? 2 : 1); ++i) {
-    if (auto r = target(passes.light_[i], {.format = GL_RGBA16F, .width = width, .height = height}); !r) return r.error();
-    if (plan.aux)
-      if (auto r = target(passes.aux_[i], {.format = GL_RG32F, .width = width, .height = height}); !r) return r.error();
-    if (plan.history)
-      if (auto r = target(passes.age_[i], {.format = GL_R8UI, .width = width, .height = height, .filter = GL_NEAREST}); !r) return r.error();
+  for (int i = 0; i < (history_ ? 2 : 1); ++i) {
+    if (auto r = target(light_[i], {.format = GL_RGBA16F, .width = width, .height = height}); !r) return r;
+    if (auxWanted_)
+      if (auto r = target(aux_[i], {.format = GL_RG32F, .width = width, .height = height}); !r) return r;
+    if (history_)
+      if (auto r = target(age_[i], {.format = GL_R8UI, .width = width, .height = height, .filter = GL_NEAREST}); !r) return r;
   }
-  const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
-  passes.defines_ = tree.defines();
-  passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)},
-                                                 {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
-  if (auto used = passes.use(account, quality); !used) return used.error();
-  if (!plan.history) return passes;
-  if (auto r = target(passes.change_, {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4}); !r) return r.error();
-  if (auto made = passes.createList(account); !made) return made.error();
-  auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
-  if (!reproject) return reproject.error();
-  passes.reproject_ = std::move(*reproject);
-  return passes;
+  const bool listed = history_ || pixels_.id();
+  pixels_ = {};
+  if (history_)
+    if (auto r = target(change_, {.format = GL_RGBA16F, .width = (width + 3) / 4, .height = (height + 3) / 4}); !r) return r;
+  return listed ? createList(account) : Result<void>{};
+}
+
+Result<void> CloudPasses::resize(gpu::MemoryAccount& account, int width, int height) {
+  const gpu::Texture light = std::move(light_[current_]), aux = std::move(aux_[current_]), age = std::move(age_[current_]);
+  if (auto made = createTargets(account, width, height); !made) return made;
+  if (!history_ || !haveHistory_) return {};
+  gpu::copyScaled(light, light_[current_], GL_LINEAR);
+  if (aux.id()) gpu::copyScaled(aux, aux_[current_], GL_NEAREST);  // distances: none lies between cloud and sky
+  gpu::copyScaled(age, age_[current_], GL_NEAREST);
+  return {};
 }
 
 Result<void> CloudPasses::createList(gpu::MemoryAccount& account) {

@@ -33,6 +33,8 @@ class CloudPasses {
   Result<void> preview(gpu::MemoryAccount& account, const Scene& scene, std::span<const glm::ivec2> pixels);  // of these pixels only
   // The same with what each pixel's ray brings given, rows from the top, instead of marched.
   Result<void> show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds);
+  // Other targets: what history there is comes along, stretched; it gets finer as its pixels are marched again.
+  Result<void> resize(gpu::MemoryAccount& account, int width, int height);
   void forget() { haveHistory_ = false; }  // the next frame marches every pixel
 
  private:
@@ -44,6 +46,7 @@ class CloudPasses {
   Result<void> useRules(const Quality& quality);
   enum class PixelSet { All, Sixteenth, List, Given };  // PIXELS of march.comp
   Result<gpu::Program> compile(const Quality& quality, PixelSet pixels) const;
+  Result<void> createTargets(gpu::MemoryAccount& account, int width, int height);
   Result<void> createList(gpu::MemoryAccount& account);
   int spare() const { return history_ ? 1 - current_ : 0; }  // the next run() writes every pixel of it
   void marchSpare(const gpu::Program& program, const Scene& scene, unsigned groupsX, unsigned groupsY) const;
@@ -54,6 +57,7 @@ class CloudPasses {
   bool haveHistory_ = false;
   std::uint32_t phase_ = 0;  // which of the 16 pixels is next
   ViewFrame last_{};
+  bool auxWanted_ = true;
   bool history_ = true;  // else every frame marches all pixels, into the one target there is
   gpu::Texture light_[2], aux_[2], age_[2], change_;
   gpu::Buffer pixels_;

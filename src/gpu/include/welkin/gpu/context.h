@@ -1,5 +1,6 @@
 #pragma once
-// An OpenGL 4.5 core context without a window (EGL). Debug messages are counted; the first ones are kept to be shown.
+// An OpenGL 4.5 core context: one of its own without a window (EGL), or that of somebody's window. Debug messages are counted; the first
+// ones are kept to be shown.
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -18,6 +19,8 @@ class Context {
  public:
   // `choice`: "auto" (a hardware device if EGL finds one, else software), "software", or a device index.
   static Result<std::unique_ptr<Context>> createHeadless(const std::string& choice = "auto", bool debug = true);
+  // Of the GL that is current in this thread, whoever made it and will end it. Fails if it is older than 4.5.
+  static Result<std::unique_ptr<Context>> ofCurrent();
   ~Context();
   const DeviceInfo& device() const { return device_; }
   std::uint64_t debugMessages() const { return debugMessages_; }             // errors, undefined behaviour and warnings so far
@@ -26,6 +29,7 @@ class Context {
 
  private:
   Context() = default;
+  void begin(bool debug);  // of the current GL: says what it is, counts its messages
   void* display_ = nullptr;
   void* context_ = nullptr;
   DeviceInfo device_;

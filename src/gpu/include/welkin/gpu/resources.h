@@ -69,6 +69,8 @@ class Texture {
   MemoryAccount* account_ = nullptr;
 };
 
+void copyScaled(const Texture& from, const Texture& to, GLenum filter);  // 2D, of one format; filter: GL_NEAREST or GL_LINEAR
+
 std::size_t formatBytes(GLenum format);  // bytes a texel
 
 }  // namespace welkin::gpu

@@ -12,6 +12,7 @@
 #include "welkin/core/result.h"
 #include "welkin/gpu/context.h"
 #include "welkin/gpu/memory.h"
+#include "welkin/gpu/resources.h"
 #include "welkin/gpu/timer.h"
 #include "welkin/octree/tree_data.h"
 #include "welkin/physics/scene.h"
@@ -28,6 +29,7 @@ struct RenderSettings {
   std::uint32_t workerJitterSeed = 0;   // tests of determinism: random delays in the worker
   bool reprojection = true;             // march one pixel in 16 a frame
   double sky_ms = 8;                    // a frame's work on the light of a changed air (Renderer::setAir); at least one slice of it
+  double spareDetail = 0;               // the tree reaches so many times the detail of the picture's pixels; 0: as fine as the budget allows
   int brickBits = 16;                   // of each number of a brick, 8 or 16: 8 is for comparisons (docs/decisions/0013)
   double light = 1;                     // reach and samples of the rays to the sun; others than 1 for comparisons
   bool timing = true;                   // per-pass times (on software GL: glFinish after each pass)
@@ -89,6 +91,11 @@ class Renderer {
   // Integrator, step rule, step, skipEmpty and detail (here: sampled at most) from the next picture on; the tree stays as it is. Fails, and
   // changes nothing that is drawn, when a shader does not compile.
   Result<void> setMarch(const Quality& quality);
+  void setBricksPerFrame(std::uint32_t most);
+  // Exposure and tone curve from the next picture on. A metered exposure begins anew.
+  Result<void> setOutput(const Output& output);
+  // Pictures of this size from now on. Tree, light and exposure stay; the picture's history comes along, stretched.
+  Result<void> resize(int width, int height);
   // Draws this view from the tree as it is now, without history; no edit is applied; history, frame count and metered exposure
   // stay. For comparing: image() and radiance() then return this picture. What its rays met is counted.
   FrameCounters preview(const View& view);
@@ -100,6 +107,7 @@ class Renderer {
   TreeData tree(const View& view);
   Result<void> drawWith(const View& view, std::span<const shared::CloudWeights> clouds);
   Image8 image() const;
+  const gpu::Texture& shown() const;  // the same on the GPU, top row first; another one after resize()
   ImageF radiance() const;  // without pixels if nobody was to read it (RenderSettings::linear)
   double drawnDetail(const View& view) const;  // nodes a radian that the tree has for this view, or shownDetail if less
   double shownDetail(const View& view) const;  // nodes a radian past which voxels are finer than this view's pixels

@@ -67,6 +67,7 @@ struct FrameInput {
   SelectionCamera camera;
   std::uint32_t maxBricks = 256;         // most bricks to generate in this frame's edits
   std::vector<BrickResult> results;      // of jobs handed out by earlier edits, in the order they were handed out
+  double detailLimit = 0;                // like StreamSettings', and under it, from now on; 0: that one alone
   bool snap = false;                     // a cut: let the sampled detail follow at once instead of gliding
 };
 

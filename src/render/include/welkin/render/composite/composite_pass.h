@@ -50,6 +50,8 @@ class CompositePass {
     return *this;
   }
 
+  Result<void> resize(int width, int height);  // new, empty pictures
+  Result<void> useOutput(const CompositeParts& parts, ToneCurve curve);  // clouds, air, sun and ground as before
   void use(const Scene& scene);  // plain albedo and sun of this scene from now on; what it has and has not stays as it was at the start
 
   // Reads the camera (WK_CAMERA_BINDING, the same block as here), the sky tables (SkyTables::bind) and the cloud layer's two textures;

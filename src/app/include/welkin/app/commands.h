@@ -4,11 +4,10 @@
 #include <functional>
 #include <memory>
 
+#include "welkin/app/cli.h"
 #include "welkin/app/options.h"
 
 namespace welkin::app {
-
-using Action = std::function<Result<void>()>;
 
 void addRender(CLI::App& app, Action& action);
 void addFly(CLI::App& app, Action& action, const std::string& commandLine);

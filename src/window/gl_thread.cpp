@@ -1,0 +1,50 @@
+#include "gl_thread.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <glad/gl.h>
+
+#include "welkin/gpu/context.h"
+
+namespace welkin::window {
+
+GlThread::GlThread(GLFWwindow* shared) : shared_(shared), thread_([this] { work(); }) {}
+
+GlThread::~GlThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  more_.notify_one();
+  thread_.join();
+}
+
+void GlThread::run(std::function<void()> job) {
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(std::move(job));
+  }
+  more_.notify_one();
+}
+
+void GlThread::work() {
+  glfwMakeContextCurrent(shared_);
+  {
+    const auto context = gpu::Context::ofCurrent();  // counts this context's messages
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      more_.wait(lock, [this] { return stop_ || !jobs_.empty(); });
+      if (stop_) break;
+      const std::function<void()> job = std::move(jobs_.front());
+      jobs_.pop_front();
+      lock.unlock();
+      job();
+      glFinish();
+      if (context) glMessages_ = (*context)->debugMessages();
+    }
+    jobs_.clear();
+  }
+  glfwMakeContextCurrent(nullptr);
+}
+
+}  // namespace welkin::window

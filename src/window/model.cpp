@@ -1,0 +1,85 @@
+#include "model.h"
+
+#include "welkin/core/files.h"
+#include "welkin/core/log.h"
+#include "welkin/gpu/timer.h"
+#include "welkin/physics/scene_io.h"
+#include "widgets.h"
+
+namespace welkin::window {
+namespace {
+
+constexpr double kMessage_s = 6;
+
+}  // namespace
+
+void Model::start(Scene begun, const View& view) {
+  scene = std::move(begun);
+  exposure_ev = view.exposure_ev ? view.exposure_ev : scene.output.exposure_ev;
+  scene.output.exposure_ev = exposure_ev;  // one place for it, so that undo finds it
+  asLoaded = scene;
+  edits = app::EditHistory<Scene>(scene);
+  home = view;
+  camera.setPlanetRadius(scene.planet.radius_m);
+  camera.setView(view);
+  wanted = {};
+  wanted.rebuild = true;
+}
+
+void Model::runTape(double dt_s) {
+  if (tape == Tape::Idle) return;
+  tape_s += dt_s;
+  if (tape == Tape::Recording) {
+    if (!recording.add(tape_s, camera.view(), time_s)) tape = Tape::Idle, say("the recording is full", true);
+    return;
+  }
+  const app::LiveFrame frame = recording.at(std::min(recording.in_s() + tape_s, recording.out_s()));
+  camera.setView(frame.view);
+  time_s = frame.time_s;
+  if (recording.in_s() + tape_s >= recording.out_s()) tape = Tape::Idle;
+}
+
+void Model::keepEdits() {
+  const std::string what = takeFinishedEdit();
+  if (what.empty() || sceneToJson(scene) == sceneToJson(edits.current())) return;
+  edits.push(scene, what);
+  edits.settle();
+}
+
+void Model::undo() {
+  if (!edits.canUndo()) return;
+  say("undone: " + edits.undoes());
+  show(edits.undo());
+}
+
+void Model::redo() {
+  if (!edits.canRedo()) return;
+  say("done again: " + edits.redoes());
+  show(edits.redo());
+}
+
+void Model::show(const Scene& other) {
+  const auto text = [](Scene s, bool live) {  // with or without what changes live
+    if (live) s.quality = {}, s.output = {};
+    return sceneToJson(s);
+  };
+  Scene now = scene;
+  const bool rebuild = text(other, true) != text(now, true) || other.quality.budget_bytes != now.quality.budget_bytes ||
+                       other.quality.depth != now.quality.depth || other.quality.seed != now.quality.seed;
+  scene = other;
+  exposure_ev = scene.output.exposure_ev;
+  wanted.rebuild = rebuild;
+  wanted.march = wanted.output = !rebuild;
+}
+
+void Model::say(const std::string& text, bool bad) {
+  message = oneLine(text, 240);
+  messageBad = bad;
+  messageUntil_s = gpu::wall_ms() / 1000 + kMessage_s;
+  if (bad)
+    log::warn("{}", message);
+  else
+    log::info("{}", message);
+}
+
+}  // namespace welkin::window

@@ -1,0 +1,18 @@
+#include "presenter.h"
+
+namespace welkin::window {
+
+void Presenter::show(const gpu::Texture& picture, app::Size window) const {
+  glNamedFramebufferTexture(frame_, GL_COLOR_ATTACHMENT0, picture.id(), 0);
+  glViewport(0, 0, window.width, window.height);
+  glBlitNamedFramebuffer(frame_, 0, 0, 0, picture.spec().width, picture.spec().height, 0, window.height, window.width, 0,
+                         GL_COLOR_BUFFER_BIT, GL_LINEAR);
+}
+
+void Presenter::clear(app::Size window) const {
+  glViewport(0, 0, window.width, window.height);
+  constexpr float kNight[4] = {0.010f, 0.012f, 0.018f, 1};
+  glClearNamedFramebufferfv(0, GL_COLOR, 0, kNight);
+}
+
+}  // namespace welkin::window

@@ -1,0 +1,23 @@
+#pragma once
+// Brings a picture of any size onto the window.
+#include <glad/gl.h>
+
+#include "welkin/app/options.h"
+#include "welkin/gpu/resources.h"
+
+namespace welkin::window {
+
+class Presenter {
+ public:
+  Presenter() { glCreateFramebuffers(1, &frame_); }
+  ~Presenter() { glDeleteFramebuffers(1, &frame_); }
+  Presenter(const Presenter&) = delete;
+  Presenter& operator=(const Presenter&) = delete;
+  void show(const gpu::Texture& picture, app::Size window) const;  // top row first; stretched, between pixels linearly
+  void clear(app::Size window) const;
+
+ private:
+  GLuint frame_ = 0;
+};
+
+}  // namespace welkin::window

@@ -1,0 +1,57 @@
+#include "state_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include "welkin/physics/scene_io.h"
+#include "widgets.h"
+
+namespace welkin::window {
+
+std::string stateJson(const Model& m, const Counts& c) {
+  using Json = nlohmann::ordered_json;
+  Json open = Json::array();
+  for (std::size_t i = 0; i < m.open.size(); ++i)
+    if (m.open[i]) open.push_back(kPanelNames[i]);
+  const Json state{{"scene", m.scene.name},
+                   {"view", Json::parse(viewToJson(m.view()))},
+                   {"altitude_m", m.camera.altitude_m()},
+                   {"speed_factor", m.camera.speedFactor},
+                   {"time_s", m.time_s},
+                   {"window", {m.window.width, m.window.height}},
+                   {"picture", {m.picture.width, m.picture.height}},
+                   {"scale", m.scale.scale()},
+                   {"loading", m.loading_s >= 0},
+                   {"settled", m.stats.residency.settled},
+                   {"bricks_to_come", m.stats.residency.pendingBricks},
+                   {"detail", m.stats.sampleDetail},
+                   {"bricks", m.stats.residency.bricks},
+                   {"bytes_used", m.stats.bytesUsed},
+                   {"bytes_budget", m.stats.bytesBudget},
+                   {"exposure_ev", m.stats.exposure_ev},
+                   {"sidebar", m.sidebar},
+                   {"help", m.help},
+                   {"panels", open},
+                   {"fields", fieldPlaces()},
+                   {"quality",
+                    {{"step", m.scene.quality.step},
+                     {"step_rule", kStepRuleNames[std::size_t(m.scene.quality.stepRule)]},
+                     {"skip_empty", m.scene.quality.skipEmpty},
+                     {"budget_bytes", m.scene.quality.budget_bytes}}},
+                   {"message", m.message},
+                   {"frame_rate", m.frameRate},
+                   {"frame_ms", m.times.frame().median()},
+                   {"seconds", c.seconds},
+                   {"frames", c.frames},
+                   {"pictures", c.pictures},
+                   {"first_picture_s", c.firstPicture_s},
+                   {"worst_frame_ms", c.worstFrame_ms},
+                   {"switch_ms", c.switch_ms},
+                   {"worst_frame", c.worst_ms},
+                   {"resizes", c.resizes},
+                   {"nan_pixels", c.nanPixels},
+                   {"holes", c.holes},
+                   {"gl_messages", c.glMessages}};
+  return state.dump(1) + "\n";
+}
+
+}  // namespace welkin::window

@@ -1,0 +1,56 @@
+#pragma once
+// A window of the desktop with an OpenGL 4.5 core context (GLFW), and what happened to it since one last looked.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "welkin/app/options.h"
+#include "welkin/core/result.h"
+
+struct GLFWwindow;
+
+namespace welkin::window {
+
+struct Press {
+  int key, mods;  // of GLFW
+};
+
+struct Events {
+  std::vector<Press> pressed;  // in order, without repeats of held keys
+  std::vector<std::filesystem::path> dropped;
+  double wheel = 0;  // notches
+};
+
+class Window {
+ public:
+  // The context is current in this thread. Fails in one line: no display, or no OpenGL 4.5.
+  static Result<std::unique_ptr<Window>> open(app::Size size, const std::string& title);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  Events poll(double mostWait_s);  // waits for an event for so long
+  bool closing() const;
+  void close();
+  void hide();
+  app::Size size() const;    // in screen coordinates
+  app::Size pixels() const;  // 0 x 0 while minimised
+  double scale() const;      // of letters and lines on this monitor
+  void setTitle(const std::string& title);
+  void swap();
+  void toggleFullScreen();
+  void captureMouse(bool captured);
+  bool mouseCaptured() const { return captured_; }
+  GLFWwindow* handle() const { return window_; }
+  GLFWwindow* helper() const { return helper_; }  // never shown: a context that shares this one's objects, for another thread
+
+ private:
+  Window() = default;
+  GLFWwindow *window_ = nullptr, *helper_ = nullptr;
+  Events events_;
+  bool captured_ = false;
+  int place_[4] = {};  // before full screen: x, y, width, height
+};
+
+}  // namespace welkin::window
