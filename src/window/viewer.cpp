@@ -45,6 +45,7 @@ class Viewer {
     model_.software = context.device().software;
     begin(std::move(start));
     model_.settings = std::move(settings);
+    interface_.setScale(model_.settings.uiScale);
   }
 
   void run() {
