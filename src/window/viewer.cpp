@@ -38,7 +38,7 @@ class Viewer {
         window_(window),
         context_(context),
         interface_(window),
-        glThread_(window.helper()),
+        glThread_(window.hidden()),
         loader_(glThread_, context),
         shots_(options.shots, options.common.gpu) {
     model_.device = context.device().renderer;
