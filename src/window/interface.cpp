@@ -4,6 +4,9 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "theme.h"
 
 namespace welkin::window {
@@ -30,8 +33,12 @@ void Interface::dress() {
 }
 
 void Interface::begin() {
-  if (window_.scale() != scale_) {
-    scale_ = window_.scale();
+  // A large window on a monitor that asks for no scale still gets letters that can be read.
+  const app::Size size = window_.pixels();
+  const double large = std::min(size.width / 2560.0, size.height / 1440.0);
+  const double wanted = asked_ > 0 ? asked_ : std::max(window_.scale(), std::floor(large * 4) / 4);
+  if (wanted != scale_) {
+    scale_ = wanted;
     dress();
   }
   ImGui_ImplOpenGL3_NewFrame();

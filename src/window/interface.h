@@ -10,8 +10,9 @@ class Interface {
   ~Interface();
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
-  void begin();  // letters follow the monitor's scale
-  void end();    // draws
+  void begin();                                    // letters follow the monitor's scale
+  void end();                                      // draws
+  void setScale(double asked) { asked_ = asked; }  // in place of the monitor's; 0: that one
   bool wantsMouse() const;
   bool busy() const;       // a field is held
   bool wantsKeys() const;  // a field of text is being edited
@@ -19,7 +20,7 @@ class Interface {
  private:
   void dress();  // style and letters at scale_
   Window& window_;
-  double scale_ = 0;
+  double scale_ = 0, asked_ = 0;
 };
 
 }  // namespace welkin::window

@@ -90,11 +90,17 @@ void message(const Model& model) {
   ImGui::End();
 }
 
-void help(Model& model) {
+// Over the picture if there is room, else over the panels; in a small window with smaller letters.
+void help(const Model& model) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  const float room = screen.x - (model.sidebar ? ImGui::GetFontSize() * 25 : 0);
+  const float bar = model.sidebar ? ImGui::GetFontSize() * 25 : 0;
+  const float room = screen.x - bar > ImGui::GetFontSize() * 30 ? screen.x - bar : screen.x;
+  const float needed = float(kKeyLines.size()) * (ImGui::GetTextLineHeightWithSpacing() + 2) + 20;
   ImGui::SetNextWindowPos({room / 2, (screen.y - statusHeight()) / 2}, 0, {0.5f, 0.5f});
+  ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(0.96f);  // over fields
   if (ImGui::Begin("keys", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+    ImGui::SetWindowFontScale(std::clamp((screen.y - statusHeight()) / needed, 0.6f, 1.0f));
     if (ImGui::BeginTable("lines", 2, ImGuiTableFlags_SizingFixedFit)) {
       for (const KeyLine& line : kKeyLines) {
         ImGui::TableNextColumn();

@@ -6,6 +6,7 @@
 #include "welkin/app/restore.h"
 #include "welkin/app/stop.h"
 #include "welkin/core/log.h"
+#include "welkin/gpu/timer.h"
 
 namespace welkin::window {
 namespace {
@@ -52,6 +53,7 @@ void addView(CLI::App& app, app::Action& action) {
     action = [o] {
       app::beginCommand(o->common);
       app::listenForStop();
+      o->begun_ms = gpu::wall_ms();
       return view(*o);
     };
   });

@@ -38,13 +38,14 @@ class Viewer {
         window_(window),
         context_(context),
         interface_(window),
-        glThread_(window.helper()),
+        glThread_(window.hidden()),
         loader_(glThread_, context),
         shots_(options.shots, options.common.gpu) {
     model_.device = context.device().renderer;
     model_.software = context.device().software;
     begin(std::move(start));
     model_.settings = std::move(settings);
+    interface_.setScale(model_.settings.uiScale);
   }
 
   void run() {
@@ -109,7 +110,7 @@ class Viewer {
                          {"interface", interface_ms - drawn_ms},
                          {"show", shown_ms - interface_ms}});
       if (drawn_ && counts_.firstPicture_s < 0) {
-        counts_.firstPicture_s = (gpu::wall_ms() - opened_ms_) / 1000;
+        counts_.firstPicture_s = (gpu::wall_ms() - options_.begun_ms) / 1000;
         log::info("first picture after {:.2f} s", counts_.firstPicture_s);
       }
     }
@@ -258,7 +259,7 @@ class Viewer {
 
   void report() {
     if (options_.state.empty()) return;
-    counts_.seconds = (gpu::wall_ms() - opened_ms_) / 1000;
+    counts_.seconds = (gpu::wall_ms() - options_.begun_ms) / 1000;
     counts_.glMessages = context_.debugMessages() + glThread_.glMessages();
     if (auto written = writeFile(options_.state, stateJson(model_, counts_)); !written) log::warn("{}", written.error().message);
   }
@@ -283,7 +284,7 @@ class Viewer {
   bool idle_ = false;
   View last_;
   double moved_ms_ = 0;  // the last time that anything did
-  double opened_ms_ = gpu::wall_ms(), reported_ms_ = 0, begun_ms_ = 0, pictured_ms_ = 0;
+  double reported_ms_ = 0, begun_ms_ = 0, pictured_ms_ = 0;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ struct ViewOptions {
   std::string viewName;
   std::filesystem::path shots;  // folder; empty: the working folder
   std::filesystem::path state;  // file for tests; empty: none
+  double begun_ms = 0;          // when the program was asked, on the clock of gpu::wall_ms
 };
 
 // Returns when the window was closed, or Ctrl-C was pressed.

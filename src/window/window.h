@@ -43,11 +43,11 @@ class Window {
   void captureMouse(bool captured);
   bool mouseCaptured() const { return captured_; }
   GLFWwindow* handle() const { return window_; }
-  GLFWwindow* helper() const { return helper_; }  // never shown: a context that shares this one's objects, for another thread
+  GLFWwindow* hidden() const { return hidden_; }  // never shown: a context that shares this one's objects, for another thread
 
  private:
   Window() = default;
-  GLFWwindow *window_ = nullptr, *helper_ = nullptr;
+  GLFWwindow *window_ = nullptr, *hidden_ = nullptr;
   Events events_;
   bool captured_ = false;
   int place_[4] = {};  // before full screen: x, y, width, height
