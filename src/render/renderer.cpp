@@ -416,7 +416,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
       r.apply(std::move(nothing), frame.position_m, stats);
     }
     r.tree->bind();
-    r.clouds->run(frame, mode, r.scene, r.seen_ev(view), r.timer);
+    r.clouds->run(frame, mode, r.scene, r.seen_ev(view), treeChanged || !r.last.stats.settled, r.timer);
     stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     r.endPicture(frame, view, sinceLast_s);
     r.timer.begin("bricks");

@@ -15,6 +15,7 @@ layout(r8ui, binding = 3) uniform writeonly uimage2D u_age;
 layout(binding = WK_CLOUD_AGE_UNIT) uniform usampler2D u_oldAge;
 uniform ivec2 u_size;
 uniform ivec2 u_offset;
+uniform bool u_refined;  // the tree changed since the last frame
 
 const int kEdgeReach = 2;          // pixels
 const float kResampleError = 0.03; // of 1: chosen for an error of 0.015 rms at 7 km a frame in orbit (docs/decisions/0004-reprojection.md)
@@ -52,11 +53,11 @@ void fill(ivec2 pixel) {
     if (resampleError(h.at) > kResampleError) valid = false;
   }
   vec4 light = historyLight(h, pixel, u_size);
-  if (moving) {
+  if (moving || u_refined) {
     vec4 change = textureLod(u_change, (vec2(pixel - u_offset) * 0.25 + 0.5) / vec2(textureSize(u_change, 0)), 0.0);
     vec4 changed = vec4(max(light.rgb + change.rgb, vec3(0.0)), clamp(light.a + change.a, 0.0, 1.0));
     vec2 difference = abs(asSeen(changed, 1.0) - asSeen(light, 1.0));
-    if (max(difference.x, difference.y) > kGreatChange) valid = false;
+    if (moving && max(difference.x, difference.y) > kGreatChange) valid = false;  // at rest the next frames will do
     light = changed;
   }
   uint age = texelFetch(u_oldAge, ivec2(h.at), 0).x + 1u;

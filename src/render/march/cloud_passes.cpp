@@ -257,7 +257,8 @@ void CloudPasses::showSpare() const {
   show(spare());
 }
 
-void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, std::optional<double> seen_ev, gpu::PassTimer& timer) {
+void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene, std::optional<double> seen_ev, bool refined,
+                      gpu::PassTimer& timer) {
   for (const gpu::Program* p : {&march_->all, &march_->sixteenth, &march_->list})
     if (p->valid()) setLight(*p, scene);
   const int old = current_;
@@ -283,6 +284,7 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     change_.bind(WK_CLOUD_CHANGE_UNIT);
     reproject_.set("u_size", glm::ivec2(width_, height_));
     reproject_.set("u_offset", offset);
+    reproject_.set("u_refined", int(refined));
     setMotion(reproject_, view);
     light_[current_].bindImage(0, GL_WRITE_ONLY);
     aux_[current_].bindImage(1, GL_WRITE_ONLY);

@@ -26,8 +26,8 @@ class CloudPasses {
                                     const Quality& quality);
   Result<void> use(gpu::MemoryAccount& account, const Quality& quality);  // its integrator, step rule and skipEmpty, compiled once each, and spread
   // Expects tree, camera, counters and sky bound. Leaves the new clouds bound at WK_CLOUD_LIGHT_UNIT and (if read) WK_CLOUD_AUX_UNIT.
-  // `seen_ev`: exposure that the picture will be seen at, if that is known; without it no pixel is spread.
-  void run(const ViewFrame& view, FrameMode mode, const Scene& scene, std::optional<double> seen_ev, gpu::PassTimer& timer);
+  // `seen_ev`: exposure that the picture will be seen at, if that is known; without it no pixel is spread. `refined`: the tree has changed.
+  void run(const ViewFrame& view, FrameMode mode, const Scene& scene, std::optional<double> seen_ev, bool refined, gpu::PassTimer& timer);
   // Marches the whole picture into the spare target, which is bound as the new clouds; history stays as it is.
   void preview(const Scene& scene, std::optional<double> seen_ev);
   Result<void> preview(gpu::MemoryAccount& account, const Scene& scene, std::span<const glm::ivec2> pixels);  // of these pixels only
