@@ -96,7 +96,32 @@ Result<std::string> loadShaderSource(const std::string& path, const Defines& def
   return legend + loader.out;
 }
 
+namespace {
+thread_local std::shared_ptr<ProgramPool> t_pool;
+}
+
+void usePool(std::shared_ptr<ProgramPool> pool) { t_pool = std::move(pool); }
+
+GLuint ProgramPool::take(const std::string& key) {
+  const std::lock_guard lock(mutex_);
+  const auto found = free_.find(key);
+  if (found == free_.end()) return 0;
+  const GLuint id = found->second;
+  free_.erase(found);
+  return id;
+}
+
+void ProgramPool::give(const std::string& key, GLuint id) {
+  const std::lock_guard lock(mutex_);
+  free_.emplace(key, id);
+}
+
 Result<Program> Program::compute(const std::string& path, const Defines& defines) {
+  Program program;
+  program.pool_ = t_pool;
+  program.key_ = path;
+  for (const auto& [name, value] : defines) program.key_ += " " + name + "=" + value;
+  if (program.pool_ && (program.id_ = program.pool_->take(program.key_)) != 0) return program;
   auto body = loadShaderSource(path, defines);
   if (!body) return body.error();
   std::string source = "#version 450 core\n";
@@ -114,7 +139,6 @@ Result<Program> Program::compute(const std::string& path, const Defines& defines
     glDeleteShader(shader);
     return Error{fmt::format("shader {}: {}{}", path, log, source.substr(0, source.find("#line")))};
   }
-  Program program;
   program.id_ = glCreateProgram();
   glAttachShader(program.id_, shader);
   glLinkProgram(program.id_);
@@ -123,6 +147,7 @@ Result<Program> Program::compute(const std::string& path, const Defines& defines
   if (!ok) {
     char log[4096] = "";
     glGetProgramInfoLog(program.id_, sizeof log, nullptr, log);
+    program.pool_.reset();
     return Error{fmt::format("shader {}: {}", path, log)};
   }
   glObjectLabel(GL_PROGRAM, program.id_, -1, path.c_str());
@@ -130,7 +155,8 @@ Result<Program> Program::compute(const std::string& path, const Defines& defines
 }
 
 Program::~Program() {
-  if (id_) glDeleteProgram(id_);
+  if (id_ && pool_) pool_->give(key_, id_);
+  else if (id_) glDeleteProgram(id_);
 }
 
 GLint Program::location(const char* uniform) const {

@@ -484,11 +484,15 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
 
 Result<void> Renderer::setAir(const Scene& changed, AirChange how) { return impl_->setAir(changed, how); }
 Result<void> Renderer::setMarch(const Quality& quality) {
-  auto& now = impl_->scene.quality;
-  impl_->stillFrames = 0, impl_->marchedFrames = 0;
-  now.integrator = quality.integrator, now.stepRule = quality.stepRule, now.skipEmpty = quality.skipEmpty;
-  now.step = quality.step, now.detail = quality.detail, now.spread = quality.spread;
-  return impl_->clouds ? impl_->clouds->use(impl_->account, now) : Result<void>{};
+  Impl& r = *impl_;
+  Quality next = r.scene.quality;
+  next.integrator = quality.integrator, next.stepRule = quality.stepRule, next.skipEmpty = quality.skipEmpty;
+  next.step = quality.step, next.detail = quality.detail, next.spread = quality.spread;
+  if (r.clouds)
+    if (auto used = r.clouds->use(r.account, next); !used) return used;
+  r.scene.quality = next;
+  r.stillFrames = 0, r.marchedFrames = 0;
+  return {};
 }
 
 Result<void> Renderer::setOutput(const Output& output) {

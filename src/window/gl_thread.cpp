@@ -8,7 +8,8 @@
 
 namespace welkin::window {
 
-GlThread::GlThread(GLFWwindow* shared) : shared_(shared), thread_([this] { work(); }) {}
+GlThread::GlThread(GLFWwindow* shared, std::shared_ptr<gpu::ProgramPool> pool)
+    : shared_(shared), pool_(std::move(pool)), thread_([this] { work(); }) {}
 
 GlThread::~GlThread() {
   {
@@ -29,6 +30,7 @@ void GlThread::run(std::function<void()> job) {
 
 void GlThread::work() {
   glfwMakeContextCurrent(shared_);
+  gpu::usePool(pool_);
   {
     const auto context = gpu::Context::ofCurrent();  // counts this context's messages
     for (;;) {

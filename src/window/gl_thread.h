@@ -8,13 +8,15 @@
 #include <mutex>
 #include <thread>
 
+#include "welkin/gpu/program.h"
+
 struct GLFWwindow;
 
 namespace welkin::window {
 
 class GlThread {
  public:
-  explicit GlThread(GLFWwindow* shared);
+  GlThread(GLFWwindow* shared, std::shared_ptr<gpu::ProgramPool> pool);
   ~GlThread();  // after the job that runs, without those that wait
   void run(std::function<void()> job);
   std::uint64_t glMessages() const { return glMessages_; }
@@ -22,6 +24,7 @@ class GlThread {
  private:
   void work();
   GLFWwindow* shared_;
+  std::shared_ptr<gpu::ProgramPool> pool_;
   std::mutex mutex_;
   std::condition_variable more_;
   std::deque<std::function<void()>> jobs_;

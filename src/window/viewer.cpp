@@ -38,9 +38,10 @@ class Viewer {
         window_(window),
         context_(context),
         interface_(window),
-        glThread_(window.hidden()),
+        glThread_(window.hidden(), pool_),
         loader_(glThread_, context),
         shots_(options.shots, options.common.gpu) {
+    gpu::usePool(pool_);
     model_.device = context.device().renderer;
     model_.software = context.device().software;
     begin(std::move(start));
@@ -271,6 +272,7 @@ class Viewer {
   Model model_;
   Interface interface_;
   Presenter presenter_;
+  std::shared_ptr<gpu::ProgramPool> pool_ = std::make_shared<gpu::ProgramPool>();
   GlThread glThread_;
   RendererLoader loader_;
   Screenshots shots_;

@@ -5,6 +5,8 @@
 
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,13 +20,27 @@ using Defines = std::vector<std::pair<std::string, std::string>>;
 // The source with includes resolved, without #version. `#include NAME` takes the path from the define NAME.
 Result<std::string> loadShaderSource(const std::string& path, const Defines& defines = {});
 
+// Programs nobody uses, kept for whoever asks for the same next: contexts that share objects compile them once each, and none is ever deleted
+// by one context while another has it bound (Mesa 22.3 then forgets the bound one, and the next dispatch is a crash). Any thread.
+class ProgramPool {
+ public:
+  GLuint take(const std::string& key);  // 0: there is none
+  void give(const std::string& key, GLuint id);
+
+ private:
+  std::mutex mutex_;
+  std::multimap<std::string, GLuint> free_;
+};
+// From now on this thread's programs come from there and go back there; all threads of a pool have contexts that share objects.
+void usePool(std::shared_ptr<ProgramPool> pool);
+
 class Program {
  public:
   Program() = default;
   // `path` below shaders/, e.g. "pass/march/march.comp".
   static Result<Program> compute(const std::string& path, const Defines& defines = {});
-  Program(Program&& o) noexcept { std::swap(id_, o.id_); std::swap(locations_, o.locations_); }
-  Program& operator=(Program&& o) noexcept { std::swap(id_, o.id_); std::swap(locations_, o.locations_); return *this; }
+  Program(Program&& o) noexcept { swap(o); }
+  Program& operator=(Program&& o) noexcept { swap(o); return *this; }
   ~Program();
   GLuint id() const { return id_; }
   bool valid() const { return id_ != 0; }
@@ -42,8 +58,13 @@ class Program {
   void dispatch(unsigned x, unsigned y = 1, unsigned z = 1) const;  // uses it; work groups
 
  private:
+  void swap(Program& o) noexcept {
+    std::swap(id_, o.id_), std::swap(locations_, o.locations_), std::swap(key_, o.key_), std::swap(pool_, o.pool_);
+  }
   GLint location(const char* uniform) const;
   GLuint id_ = 0;
+  std::string key_;                    // of the pool
+  std::shared_ptr<ProgramPool> pool_;  // where it goes in the end; none: it is deleted
   mutable std::map<std::string, GLint> locations_;
 };
 
