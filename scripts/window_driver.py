@@ -135,6 +135,10 @@ class Window:
     def drop(self, *files):
         return subprocess.run([os.path.join(self.build, "tests", "xdnd_source"), self.id, *files], env=self.environment, stderr=subprocess.DEVNULL, timeout=30).returncode
 
+    def logged(self):
+        with open(self.log.name, encoding="utf-8", errors="replace") as f:
+            return f.read().splitlines()
+
     def resize(self, width, height):
         self.xdotool("windowsize", self.id, str(width), str(height))
 
