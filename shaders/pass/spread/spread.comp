@@ -1,4 +1,4 @@
-// Between marched pixels, `u_spacing` apart: what lies halfway is put between them where they look alike, and else goes to a list that is marched.
+// Between marched pixels, `u_spacing` apart: where four of them look alike, what lies halfway is their mean; else it goes to a list that is marched.
 #include "lib/as_seen.glsl"
 #include "lib/pixel_list.glsl"
 
@@ -13,7 +13,7 @@ layout(r8ui, binding = 3) uniform writeonly uimage2D u_age;
 uniform ivec2 u_size;
 uniform int u_spacing;
 uniform float u_exposure;  // times the base exposure
-uniform float u_spread;    // of 1, as seen
+uniform float u_spread;    // 0 to 1, as seen
 
 struct Marched { vec4 light; vec2 aux; vec2 seen; };
 
@@ -60,7 +60,7 @@ void between(ivec2 at) {
   int whole = u_spacing, half_ = u_spacing / 2;
   Marched a = marched(at), b = marched(at + ivec2(whole, 0)), c = marched(at + ivec2(0, whole)), d = marched(at + whole);
   bool right = at.x + whole < u_size.x, below = at.y + whole < u_size.y;
-  bool alike = apart(a, b, c, d) <= u_spread;  // a NaN is like nothing: it is marched, and counted there
+  bool alike = apart(a, b, c, d) <= u_spread;  // a NaN goes on into the means, and composite counts it
   Marched top = halfway(a, b);
   put(at + ivec2(half_, 0), top, alike && right);
   put(at + ivec2(0, half_), halfway(a, c), alike && below);

@@ -176,7 +176,7 @@ void CloudPasses::marchWhole(const Scene& scene, std::optional<double> seen_ev, 
     spread_.set("u_exposure", float(std::exp2(*seen_ev)));
     spread_.set("u_spread", float(scene.quality.spread / 255));
     spread_.dispatch(groups(width_, 8 * spacing), groups(height_, 8 * spacing));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     marchList(target);
   }
 }
@@ -291,7 +291,7 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
     age_[current_].bindImage(3, GL_WRITE_ONLY);
     age_[old].bind(WK_CLOUD_AGE_UNIT);
     reproject_.dispatch(groups(width_, 8), groups(height_, 8));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     timer.end();
     timer.begin("march");
     marchList(current_);

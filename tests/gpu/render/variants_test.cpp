@@ -33,6 +33,23 @@ TEST_F(Shaders, TableIsComplete) {
   EXPECT_EQ(listed, found);
 }
 
+// A program that is done with serves the next who asks for the same; another one does not get it.
+TEST_F(Shaders, PoolGivesBackWhatItGot) {
+  gpu::usePool(std::make_shared<gpu::ProgramPool>());
+  GLuint first = 0;
+  {
+    const auto program = gpu::Program::compute("pass/maps/build.comp");
+    ASSERT_TRUE(program.ok());
+    first = program->id();
+    EXPECT_NE(gpu::Program::compute("pass/maps/build.comp")->id(), first) << "it is in use";
+  }
+  const auto other = gpu::Program::compute("pass/maps/build.comp", {{"UNUSED", "1"}});
+  EXPECT_NE(other->id(), first);
+  const auto one = gpu::Program::compute("pass/maps/build.comp"), two = gpu::Program::compute("pass/maps/build.comp");
+  EXPECT_TRUE(one->id() == first || two->id() == first);
+  gpu::usePool(nullptr);
+}
+
 // A mistake is told with file and line of the file that has it, and a missing include by who wanted it.
 TEST_F(Shaders, MistakesAreTold) {
   const auto missing =
