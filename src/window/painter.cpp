@@ -86,13 +86,17 @@ void Painter::draw(Order order) {
     const std::lock_guard lock(mutex_);
     done_.emplace(std::move(painted));
     painted_.notify_one();
+    if (std::exchange(late_, false)) glfwPostEmptyEvent();
   });
 }
 
 std::optional<Painted> Painter::take(double most_ms) {
   std::unique_lock lock(mutex_);
-  if (!drawing_ || !painted_.wait_for(lock, std::chrono::duration<double, std::milli>(most_ms), [this] { return done_.has_value(); }))
+  if (!drawing_) return {};
+  if (!painted_.wait_for(lock, std::chrono::duration<double, std::milli>(most_ms), [this] { return done_.has_value(); })) {
+    late_ = true;
     return {};
+  }
   drawing_ = false;
   return std::exchange(done_, std::nullopt);
 }
