@@ -56,7 +56,8 @@ void Painter::make(const Scene& scene, const RenderSettings& settings, const Vie
     if (made) {
       renderer_ = std::move(*made);
       size_ = {settings.width, settings.height};
-      for (int i = 0; i < kFirstFrames && wanted(); ++i) renderer_->frame(view, FrameMode::Reprojected, 0);
+      for (int i = 0; i < kFirstFrames && wanted(); ++i)  // the last one whole: pixels of eight trees side by side show as dots
+        renderer_->frame(view, i + 1 < kFirstFrames ? FrameMode::Reprojected : FrameMode::Full, 0);
     }
     const std::lock_guard lock(mutex_);
     if (wanted_ != number) return;
