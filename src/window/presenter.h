@@ -14,6 +14,7 @@ class Presenter {
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
   void show(const gpu::Texture& picture, app::Size window) const;  // top row first; stretched, between pixels linearly
+  void showWhole(const gpu::Texture& picture, app::Size window) const;  // at its own shape, in the middle
   void clear(app::Size window) const;
 
  private:

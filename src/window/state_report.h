@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "flight_show.h"
 #include "model.h"
 
 namespace welkin::window {
@@ -14,6 +15,6 @@ struct Counts {  // since the window opened
   std::map<std::string, double> worst_ms;  // parts of the worst frame
 };
 
-std::string stateJson(const Model& model, const Counts& counts);
+std::string stateJson(const Model& model, const Counts& counts, const std::vector<FlightShow::Shown>& shown);
 
 }  // namespace welkin::window

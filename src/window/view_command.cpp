@@ -17,6 +17,8 @@ Result<app::Start> startOf(const ViewOptions& options) {
   if (!options.viewName.empty()) return app::loadStart(options.input, options.viewName);
   auto restored = app::restoreFrom(options.input);
   if (!restored) return restored.error();
+  if (restored->result)
+    return Error{fmt::format("{}: expected a scene or a picture; a result of a flight is dropped onto the window", options.input.string())};
   return std::move(restored->start);
 }
 

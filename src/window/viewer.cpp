@@ -6,6 +6,7 @@
 #include "brick_pace.h"
 #include "controls.h"
 #include "file_loader.h"
+#include "flight_show.h"
 #include "interface.h"
 #include "log_lines.h"
 #include "panels.h"
@@ -23,7 +24,7 @@
 namespace welkin::window {
 namespace {
 
-constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
+constexpr double kIdleWait_s = 0.03, kMeasuringWait_s = 0.1, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
 constexpr std::uint64_t kFirstPictures = 8;  // not among the slowest: shaders are compiled for them
 constexpr double kSpareDetail = 1.4;         // for the next step of a flight
 
@@ -40,7 +41,9 @@ class Viewer {
         interface_(window),
         glThread_(window.hidden(), pool_),
         loader_(glThread_, context),
-        shots_(options.shots, options.common.gpu) {
+        shots_(options.shots, options.common.gpu),
+        flights_(options.common.gpu) {
+    if (!options.state.empty()) flights_.rememberShown();
     gpu::usePool(pool_);
     model_.device = context.device().renderer;
     model_.software = context.device().software;
@@ -52,7 +55,7 @@ class Viewer {
   void run() {
     double last_ms = gpu::wall_ms();
     while (!window_.closing() && !app::stopRequested()) {
-      const Events events = window_.poll(idle_ ? kIdleWait_s : 0);
+      const Events events = window_.poll(flights_.running() ? kMeasuringWait_s : idle_ ? kIdleWait_s : 0);
       const double now_ms = gpu::wall_ms(), dt_s = std::min((now_ms - last_ms) / 1000, kMostStep_s);
       last_ms = now_ms;
       frame(events, now_ms, dt_s);
@@ -78,8 +81,9 @@ class Viewer {
   void frame(const Events& events, double now_ms, double dt_s) {
     for (const Press& press : events.pressed)
       if (!interface_.wantsKeys()) Controls::press(model_, window_, press);
-    controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
-    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.tape != Model::Tape::Idle ||
+    if (!flights_.running()) controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
+    if (interface_.busy() || !events.pressed.empty()) flights_.moveOn();
+    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.deck.mode() != Deck::Mode::Idle ||
         !sameView(model_.view(), last_))
       moved_ms_ = now_ms;
     last_ = model_.view();
@@ -104,7 +108,7 @@ class Viewer {
       const double shown_ms = gpu::wall_ms();
       // A GPU waits for the display in swap; software has a copy to make.
       const double frame_ms = (model_.software ? shown_ms : interface_ms) - now_ms;
-      if (drawn_)
+      if (drawn_ && !flights_.running())
         timed(frame_ms, {{"input", begun_ms_ - now_ms},
                          {"draw", pictured_ms_ - begun_ms_},
                          {"stretch", drawn_ms - pictured_ms_},
@@ -148,9 +152,15 @@ class Viewer {
   void carryOut() {
     takeLoaded();
     model_.keepEdits();
+    flights_.advance(model_);
     const Wanted wanted = std::exchange(model_.wanted, {});
     bool rebuild = wanted.rebuild;
     if (wanted.saveScene) save("scene", writeScene(model_, folder()));
+    if (wanted.endRecording) {
+      const auto ended = model_.deck.endRecording(model_.scene.name, model_.window.width, model_.window.height);
+      if (!ended) model_.say(ended.error().message, true);
+    }
+    if (wanted.flight && !flights_.running()) replay(*wanted.flight);
     if (wanted.savePath) save("path", writePath(model_, folder()));
     if (model_.settingsChanged) model_.settingsChanged = false, keepSettings();
     if (renderer_ && !rebuild) {
@@ -171,6 +181,17 @@ class Viewer {
       model_.say("a converged picture is being made");
     }
     for (const auto& note : shots_.news()) model_.say(note.text, note.bad);
+  }
+
+  // As `welkin fly` would: so from a file.
+  void replay(FlightTask task) {
+    std::filesystem::path file = model_.deck.fileOf(sceneToJson(model_.scene));
+    if (file.empty()) {
+      const auto written = writePath(model_, folder());
+      if (!written) return model_.say(written.error().message, true);
+      file = *written;
+    }
+    flights_.begin(model_, task, file, folder());
   }
 
   RenderSettings settings() const {
@@ -224,21 +245,25 @@ class Viewer {
   }
 
   void use(app::Restored restored) {
+    if (restored.result) {
+      model_.say("a result of a flight: " + restored.result->file.filename().string());
+      model_.results.add(std::move(*restored.result));
+      model_.open[std::size_t(Panel::Results)] = true;
+      model_.showNow = Panel::Results;
+      return;
+    }
     const auto notes = restored.start.notes;
     begin(std::move(restored.start));
-    if (restored.path) {
-      model_.recording = {};
-      for (std::size_t i = 0; i < restored.path->frames.size(); ++i)
-        model_.recording.add(double(i) * restored.path->timeStep_s, restored.path->frames[i].view, restored.path->frames[i].time_s);
-      model_.tape = Model::Tape::Replaying, model_.tape_s = 0;
-    }
-    model_.say(restored.path ? "a recorded flight of " + oneLine(model_.scene.name, 60) : "restored " + oneLine(model_.scene.name, 60));
+    const bool flight = restored.path.has_value();
+    if (flight) loadFlight(model_, std::move(*restored.path));
+    model_.say(flight ? "a recorded flight of " + oneLine(model_.scene.name, 60) : "restored " + oneLine(model_.scene.name, 60));
     for (const auto& note : notes) model_.say(note, true);
   }
 
   void draw(double dt_s) {
     const app::Size size = model_.scale.sizeFor(model_.window);
-    if (renderer_) {
+    const bool paused = flights_.running() || flights_.shows(model_.view());
+    if (renderer_ && !paused) {
       if (size.width != model_.picture.width || size.height != model_.picture.height || !drawn_) {
         if (auto fits = renderer_->resize(size.width, size.height); !fits) model_.say(fits.error().message, true);
         model_.picture = size;
@@ -252,7 +277,9 @@ class Viewer {
       if (model_.stats.sampleDetail >= 1) counts_.holes += model_.stats.counters.holes;  // before, the tree promises nothing
     }
     pictured_ms_ = gpu::wall_ms();
-    if (renderer_ && drawn_)
+    if (flights_.shows(model_.view()))
+      flights_.draw(presenter_, model_.window);
+    else if (renderer_ && drawn_)
       presenter_.show(renderer_->shown(), model_.window);
     else
       presenter_.clear(model_.window);
@@ -262,7 +289,7 @@ class Viewer {
     if (options_.state.empty()) return;
     counts_.seconds = (gpu::wall_ms() - options_.begun_ms) / 1000;
     counts_.glMessages = context_.debugMessages() + glThread_.glMessages();
-    if (auto written = writeFile(options_.state, stateJson(model_, counts_)); !written) log::warn("{}", written.error().message);
+    if (auto written = writeFile(options_.state, stateJson(model_, counts_, flights_.shown())); !written) log::warn("{}", written.error().message);
   }
 
   const ViewOptions& options_;
@@ -276,6 +303,7 @@ class Viewer {
   GlThread glThread_;
   RendererLoader loader_;
   Screenshots shots_;
+  FlightShow flights_;
   Controls controls_;
   std::unique_ptr<Renderer> renderer_;
   FileLoader files_;

@@ -1,6 +1,7 @@
 #pragma once
 // Replays a recorded path, measures every frame, and leaves timings.json, pictures, a contact sheet and perhaps a video.
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,14 @@ Result<FlightPlan> planFlight(const FlightOptions& options);
 bool pictureWanted(const FlightPlan& plan, int frame);      // every so many, and the last one
 std::string pictureName(int frame);                         // "frame-00120.png"
 double altitude_m(const View& view, const Planet& planet);  // above the ground
+
+// Who looks on while a flight is replayed.
+struct FlightWatch {
+  std::function<bool(double fraction, const std::string& note)> progress;  // false: stop after this frame
+  std::function<void(int frame, const Image8& picture)> picture;           // every frame as it is drawn; empty: nobody asks for them
+};
+// Draws the frames and writes what the plan says, but for the JSON. Ended early: the report's `stopped`.
+Result<measure::TimingReport> replay(const FlightOptions& options, FlightPlan plan, const FlightWatch& watch);
 
 // Runs it. Prints the table on stdout. Error: the first thing that went wrong; files written before it are whole.
 Result<void> fly(const FlightOptions& options);

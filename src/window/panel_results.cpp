@@ -1,0 +1,140 @@
+#include <algorithm>
+
+#include "panels.h"
+#include "widgets.h"
+
+namespace welkin::window {
+namespace {
+
+constexpr ImU32 kColours[2] = {IM_COL32(127, 178, 229, 255), IM_COL32(242, 180, 90, 255)};  // A, B
+
+void coloured(int which, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, kColours[which]);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+std::string hover(const app::FlightResult& r) {
+  std::string text = r.file.string();
+  for (const auto& [name, value] : r.settings) text += "\n" + name + ": " + value;
+  return text;
+}
+
+// Which ones are side by side.
+void choose(Results& results) {
+  for (int i = 0; i < int(results.all.size()); ++i) {
+    const app::FlightResult& r = results.all[std::size_t(i)];
+    ImGui::PushID(i);
+    if (ImGui::RadioButton("A", results.a == i)) results.a = i;
+    ImGui::SameLine();
+    if (ImGui::RadioButton("B", results.b == i)) results.b = results.b == i ? -1 : i;
+    ImGui::SameLine();
+    ImGui::Text("%s, %.1f ms", r.file.filename().string().c_str(), r.median_ms);
+    explain(hover(r).c_str());
+    ImGui::PopID();
+  }
+}
+
+void right(const std::string& text) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0f));
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void table(const app::ResultComparison& c, bool both) {
+  if (!ImGui::BeginTable("times", both ? 4 : 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.2f);
+  for (const char* name : {"A", "B", "B / A"}) {
+    if (!both && name[0] == 'B') continue;
+    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, 1);
+  }
+  if (both) {
+    ImGui::TableNextColumn();
+    ImGui::TableNextColumn(), coloured(0, "A");
+    ImGui::TableNextColumn(), coloured(1, "B");
+    ImGui::TableNextColumn(), ImGui::TextDisabled("B / A");
+  }
+  for (const app::ComparedRow& row : c.rows) {
+    ImGui::TableNextColumn();
+    ImGui::Text("%s%s%s", row.name.c_str(), *row.unit != '\0' ? ", " : "", row.unit);
+    ImGui::TableNextColumn(), right(app::valueText(row.a));
+    if (!both) continue;
+    ImGui::TableNextColumn(), right(app::valueText(row.b));
+    ImGui::TableNextColumn(), right(app::ratioText(row.ratio));
+  }
+  ImGui::EndTable();
+}
+
+// Frame times over the share of the flight that is behind: paths of unlike length lie over each other.
+void plot(const app::FlightResult* const (&results)[2]) {
+  const float letters = ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x, height = 6 * letters;
+  double top = 1e-6;
+  for (const auto* r : results)
+    if (r) top = std::max(top, r->p99_ms * 1.3);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  ImGui::Dummy({width, height});
+  remember("results plot");
+  draw.AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
+  draw.PushClipRect(at, {at.x + width, at.y + height}, true);
+  std::vector<ImVec2> line;
+  for (int k = 0; k < 2; ++k) {
+    if (!results[k]) continue;
+    const auto& ms = results[k]->frame_ms;
+    line.clear();
+    const std::size_t points = std::min<std::size_t>(ms.size(), std::size_t(width)), per = (ms.size() + points - 1) / points;
+    for (std::size_t i = 0; i < ms.size(); i += per) {  // of many frames the slowest is shown
+      const double slowest = *std::max_element(ms.begin() + std::ptrdiff_t(i), ms.begin() + std::ptrdiff_t(std::min(i + per, ms.size())));
+      const double part = ms.size() > 1 ? double(i) / double(ms.size() - 1) : 0;
+      line.push_back({at.x + width * float(part), at.y + height * float(1 - slowest / top)});
+    }
+    draw.AddPolyline(line.data(), int(line.size()), kColours[k], 0, 1.5f);
+  }
+  draw.PopClipRect();
+  const std::string scale = fmt::format("{} ms", app::valueText(top));
+  draw.AddText({at.x + 6, at.y + 3}, ImGui::GetColorU32(ImGuiCol_TextDisabled), scale.c_str());
+  for (int k = 0; k < 2; ++k) {
+    if (!results[k]) continue;
+    if (k == 1) ImGui::SameLine();
+    coloured(k, fmt::format("{} {}", k == 0 ? "A" : "B", results[k]->file.filename().string()));
+  }
+}
+
+void differences(const app::ResultComparison& c) {
+  if (c.different.empty()) {
+    ImGui::TextDisabled("same settings, scene and device");
+    return;
+  }
+  ImGui::TextDisabled("different");
+  for (const auto& d : c.different) {
+    ImGui::TextUnformatted(d.name.c_str());
+    ImGui::PushTextWrapPos(0);
+    ImGui::Indent();
+    coloured(0, d.a);
+    coloured(1, d.b);
+    ImGui::Unindent();
+    ImGui::PopTextWrapPos();
+  }
+}
+
+}  // namespace
+
+void resultsPanel(Model& model) {
+  Results& results = model.results;
+  if (results.all.empty()) {
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextDisabled("Benchmarks of flights are shown here, one alone or two side by side. Results of `welkin fly` can be dropped too.");
+    ImGui::PopTextWrapPos();
+    return;
+  }
+  choose(results);
+  if (results.a < 0) return;
+  const app::FlightResult& a = results.all[std::size_t(results.a)];
+  const app::FlightResult* b = results.b >= 0 ? &results.all[std::size_t(results.b)] : nullptr;
+  const app::ResultComparison c = app::compareResults(a, b ? *b : a);
+  plot({&a, b});
+  table(c, b != nullptr);
+  if (b) differences(c);
+}
+
+}  // namespace welkin::window
