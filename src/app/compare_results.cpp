@@ -37,25 +37,25 @@ double framesPerSecond(const FlightResult& r) { return r.median_ms > 0 ? 1000 / 
 ResultComparison compareResults(const FlightResult& a, const FlightResult& b) {
   ResultComparison out;
   const auto time = [&](const std::string& name, std::optional<double> x, std::optional<double> y) {
-    out.rows.push_back({name, x, y, ratioOf(x, y), "ms"});
+    out.rows.push_back({name, x, y, ratioOf(x, y), "ms", false});
   };
-  const auto count = [&](const std::string& name, std::optional<double> x, std::optional<double> y, const char* unit = "") {
-    out.rows.push_back({name, x, y, {}, unit});
+  const auto other = [&](const std::string& name, std::optional<double> x, std::optional<double> y, const char* unit, bool counted) {
+    out.rows.push_back({name, x, y, {}, unit, counted});
   };
   time("frame, median", a.median_ms, b.median_ms);
   time("frame, p95", a.p95_ms, b.p95_ms);
   time("frame, p99", a.p99_ms, b.p99_ms);
   time("frame, max", a.max_ms, b.max_ms);
-  out.rows.push_back({"frames a second", framesPerSecond(a), framesPerSecond(b), ratioOf(framesPerSecond(a), framesPerSecond(b)), ""});
+  out.rows.push_back({"frames a second", framesPerSecond(a), framesPerSecond(b), ratioOf(framesPerSecond(a), framesPerSecond(b)), "", false});
   for (const auto& [name, ms] : a.passes_ms) time(name, ms, passOf(b, name));
   for (const auto& [name, ms] : b.passes_ms)
     if (find(a.passes_ms, name) == a.passes_ms.end()) time(name, {}, ms);
-  count("waited in all", a.wait_ms, b.wait_ms, "ms");
-  count("frames", double(a.frame_ms.size()), double(b.frame_ms.size()));
-  count("memory at most", a.greatestBytes / (1 << 20), b.greatestBytes / (1 << 20), "MiB");
-  if (a.rmse_255 || b.rmse_255) count("RMSE, 0-255", a.rmse_255, b.rmse_255);
-  count("not a number", a.nanPixels, b.nanPixels, "pixels");
-  count("holes", a.holes, b.holes, "rays");
+  other("waited in all", a.wait_ms, b.wait_ms, "ms", false);
+  other("frames", double(a.frame_ms.size()), double(b.frame_ms.size()), "", true);
+  other("memory at most", a.greatestBytes / (1 << 20), b.greatestBytes / (1 << 20), "MiB", false);
+  if (a.rmse_255 || b.rmse_255) other("RMSE, 0-255", a.rmse_255, b.rmse_255, "", false);
+  other("not a number", a.nanPixels, b.nanPixels, "pixels", true);
+  other("holes", a.holes, b.holes, "rays", true);
   for (const auto& [name, text] : a.settings)
     if (settingOf(b, name) != text) out.different.push_back({name, text, settingOf(b, name)});
   for (const auto& [name, text] : b.settings)
@@ -64,12 +64,12 @@ ResultComparison compareResults(const FlightResult& a, const FlightResult& b) {
   return out;
 }
 
-std::string valueText(const std::optional<double>& value) {
+std::string valueText(const ComparedRow& row, const std::optional<double>& value) {
   if (!value) return "-";
-  return *value >= 1000 || *value == 0 ? fmt::format("{:.0f}", *value) : fmt::format("{:#.4g}", *value);
+  return row.counted || *value >= 1000 || *value == 0 ? fmt::format("{:.0f}", *value) : fmt::format("{:#.4g}", *value);
 }
 
-std::string ratioText(const std::optional<double>& ratio) { return ratio ? fmt::format("{:.3f}", *ratio) : ""; }
+std::string ratioText(const ComparedRow& row) { return row.ratio ? fmt::format("{:.3f}", *row.ratio) : ""; }
 
 std::string comparisonText(const ResultComparison& c) {
   std::size_t width = 0, name = 0;
@@ -77,7 +77,7 @@ std::string comparisonText(const ResultComparison& c) {
   std::string out = fmt::format("{:<{}}  {:>10}  {:>10}  {:>8}\n", "", width, "A", "B", "B / A");
   for (const auto& row : c.rows) {
     std::string text =
-        fmt::format("{:<{}}  {:>10}  {:>10}  {:>8}  {}", row.name, width, valueText(row.a), valueText(row.b), ratioText(row.ratio), row.unit);
+        fmt::format("{:<{}}  {:>10}  {:>10}  {:>8}  {}", row.name, width, valueText(row, row.a), valueText(row, row.b), ratioText(row), row.unit);
     text.erase(text.find_last_not_of(' ') + 1);
     out += text + "\n";
   }

@@ -25,9 +25,13 @@ void choose(Results& results) {
   for (int i = 0; i < int(results.all.size()); ++i) {
     const app::FlightResult& r = results.all[std::size_t(i)];
     ImGui::PushID(i);
+    ImGui::PushStyleColor(ImGuiCol_Text, kColours[0]);
     if (ImGui::RadioButton("A", results.a == i)) results.a = i;
+    ImGui::PopStyleColor();
     ImGui::SameLine();
+    ImGui::PushStyleColor(ImGuiCol_Text, kColours[1]);
     if (ImGui::RadioButton("B", results.b == i)) results.b = results.b == i ? -1 : i;
+    ImGui::PopStyleColor();
     ImGui::SameLine();
     ImGui::Text("%s, %.1f ms", r.file.filename().string().c_str(), r.median_ms);
     explain(hover(r).c_str());
@@ -35,32 +39,34 @@ void choose(Results& results) {
   }
 }
 
-void right(const std::string& text) {
+void right(const std::string& text, ImU32 colour = ImGui::GetColorU32(ImGuiCol_Text)) {
   const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(room, 0.0f));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
 }
 
 void table(const app::ResultComparison& c, bool both) {
   if (!ImGui::BeginTable("times", both ? 4 : 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.2f);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.4f);
   for (const char* name : {"A", "B", "B / A"}) {
     if (!both && name[0] == 'B') continue;
     ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, 1);
   }
   if (both) {
     ImGui::TableNextColumn();
-    ImGui::TableNextColumn(), coloured(0, "A");
-    ImGui::TableNextColumn(), coloured(1, "B");
-    ImGui::TableNextColumn(), ImGui::TextDisabled("B / A");
+    ImGui::TableNextColumn(), right("A", kColours[0]);
+    ImGui::TableNextColumn(), right("B", kColours[1]);
+    ImGui::TableNextColumn(), right("B / A", ImGui::GetColorU32(ImGuiCol_TextDisabled));
   }
   for (const app::ComparedRow& row : c.rows) {
     ImGui::TableNextColumn();
     ImGui::Text("%s%s%s", row.name.c_str(), *row.unit != '\0' ? ", " : "", row.unit);
-    ImGui::TableNextColumn(), right(app::valueText(row.a));
+    ImGui::TableNextColumn(), right(app::valueText(row, row.a));
     if (!both) continue;
-    ImGui::TableNextColumn(), right(app::valueText(row.b));
-    ImGui::TableNextColumn(), right(app::ratioText(row.ratio));
+    ImGui::TableNextColumn(), right(app::valueText(row, row.b));
+    ImGui::TableNextColumn(), right(app::ratioText(row));
   }
   ImGui::EndTable();
 }
@@ -91,13 +97,10 @@ void plot(const app::FlightResult* const (&results)[2]) {
     draw.AddPolyline(line.data(), int(line.size()), kColours[k], 0, 1.5f);
   }
   draw.PopClipRect();
-  const std::string scale = fmt::format("{} ms", app::valueText(top));
+  const std::string scale = fmt::format("{:.3g} ms", top);
   draw.AddText({at.x + 6, at.y + 3}, ImGui::GetColorU32(ImGuiCol_TextDisabled), scale.c_str());
-  for (int k = 0; k < 2; ++k) {
-    if (!results[k]) continue;
-    if (k == 1) ImGui::SameLine();
-    coloured(k, fmt::format("{} {}", k == 0 ? "A" : "B", results[k]->file.filename().string()));
-  }
+  for (int k = 0; k < 2; ++k)
+    if (results[k]) draw.AddText({at.x + width - letters * float(k == 0 ? 3 : 1.5), at.y + 3}, kColours[k], k == 0 ? "A" : "B");
 }
 
 void differences(const app::ResultComparison& c) {

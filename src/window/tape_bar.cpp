@@ -8,8 +8,8 @@
 namespace welkin::window {
 namespace {
 
-enum class Held { Place, In, Out };
-Held g_held = Held::Place;  // there is one bar, and one mouse
+enum class Held { None, Place, In, Out };
+Held g_held = Held::None;  // there is one bar, and one mouse
 
 constexpr ImU32 kAway = IM_COL32(26, 38, 56, 230), kKept = IM_COL32(58, 92, 130, 255), kPoint = IM_COL32(242, 180, 90, 255),
                 kPlace = IM_COL32(221, 229, 240, 255), kTick = IM_COL32(132, 147, 168, 110);
@@ -35,12 +35,10 @@ bool tapeBar(Deck& deck) {
   const bool active = ImGui::IsItemActive();
   const ImVec2 mouse = ImGui::GetMousePos();
   const bool nearIn = std::abs(mouse.x - in) <= std::abs(mouse.x - out) && (in < out || mouse.x <= in);
-  const bool below = mouse.y > middle;
   if (ImGui::IsItemHovered() && !active) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   bool moved = false;
   if (ImGui::IsItemActivated()) {
-    const bool reachable = std::min(std::abs(mouse.x - in), std::abs(mouse.x - out)) < letters;
-    g_held = below && reachable ? (nearIn ? Held::In : Held::Out) : Held::Place;
+    g_held = mouse.y < middle ? Held::Place : (nearIn ? Held::In : Held::Out);
   }
   if (active) {
     const double s = std::clamp(double((mouse.x - left) / run), 0.0, 1.0) * whole_s;
@@ -48,9 +46,8 @@ bool tapeBar(Deck& deck) {
     const bool reset = ImGui::IsMouseDoubleClicked(0);
     if (g_held == Held::In) reset ? deck.tape.setIn(0) : deck.tape.setIn(frame);
     if (g_held == Held::Out) reset ? deck.tape.setOut(deck.tape.frames() - 1) : deck.tape.setOut(frame);
-    if (reset && g_held != Held::Place) ImGui::SetKeyboardFocusHere(-1), g_held = Held::Place;
-    else if (g_held == Held::Place && !reset)
-      deck.moveTo(frame * step_s), moved = true;
+    if (g_held == Held::Place) deck.moveTo(frame * step_s), moved = true;
+    if (reset && g_held != Held::Place) g_held = Held::None;  // else it would follow the mouse again
   }
   if (ImGui::IsItemDeactivated()) deck.tape.letGo();
   if (!active) explain("Drag above to move along the flight, below to set the in and out points. A double click below brings a point back.");

@@ -26,7 +26,10 @@ Result<void> view(const ViewOptions& options) {
   auto start = startOf(options);
   if (!start) return start.error();
   app::LoadedSettings loaded = app::loadSettings(app::settingsFile());
-  auto window = Window::open(options.common.size.value_or(app::Size{loaded.settings.width, loaded.settings.height}), "Welkin");
+  const app::Settings& kept = loaded.settings;
+  const Placement place = options.common.size ? Placement{*options.common.size, {}, false}
+                                              : Placement{{kept.width, kept.height}, kept.position, kept.maximized};
+  auto window = Window::open(place, "Welkin");
   if (!window) return window.error();
   auto context = gpu::Context::ofCurrent();
   if (!context) return Error{context.error().message + "; `welkin render` draws pictures without a window"};

@@ -61,7 +61,9 @@ class Viewer {
       frame(events, now_ms, dt_s);
     }
     if (!options_.common.size) {  // else it was asked for once
-      model_.settings.width = window_.size().width, model_.settings.height = window_.size().height;
+      const Placement place = window_.placement();
+      model_.settings.width = place.size.width, model_.settings.height = place.size.height;
+      model_.settings.position = place.position, model_.settings.maximized = place.maximized;
       keepSettings();
     }
     window_.hide();  // a renderer that is being made, and pictures that are being written, are finished unseen
@@ -120,7 +122,7 @@ class Viewer {
       }
     }
     ++counts_.frames;
-    idle_ = minimised || !drawn_ || model_.stats.leftOut == "nothing-moves";
+    idle_ = minimised || !drawn_ || flights_.shows(model_.view()) || model_.stats.leftOut == "nothing-moves";
     if (now_ms - reported_ms_ > 1000 * kStateEvery_s) reported_ms_ = now_ms, report();
   }
 

@@ -34,6 +34,7 @@ struct ComparedRow {
   std::optional<double> a, b;   // absent: this one has no such pass
   std::optional<double> ratio;  // b / a, of times
   const char* unit = "";
+  bool counted = false;  // a whole number
 };
 struct DifferentSetting {
   std::string name, a, b;  // "-": it is not said
@@ -46,7 +47,7 @@ ResultComparison compareResults(const FlightResult& a, const FlightResult& b);
 std::string comparisonText(const ResultComparison& comparison);  // a table, and below it what differs; no path in it
 std::string comparisonJson(const FlightResult& a, const FlightResult& b);
 
-std::string valueText(const std::optional<double>& value);  // of a row, in four digits; "-" for none
-std::string ratioText(const std::optional<double>& ratio);
+std::string valueText(const ComparedRow& row, const std::optional<double>& value);  // four digits, or a whole number; "-" for none
+std::string ratioText(const ComparedRow& row);
 
 }  // namespace welkin::app
