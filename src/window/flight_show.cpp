@@ -21,11 +21,7 @@ void FlightShow::advance(Model& model) {
   if (!running()) return;
   if (auto picture = job_.takePicture()) take(model, std::move(*picture));
   if (auto done = job_.takeDone()) {
-    if (done->result) {
-      model.results.add(std::move(*done->result));
-      model.open[std::size_t(Panel::Results)] = true;
-      model.showNow = Panel::Results;
-    }
+    if (done->result) model.showResult(std::move(*done->result));
     model.say(done->said, done->bad);
   }
   model.flight.reset();

@@ -47,6 +47,12 @@ void Model::show(const PathFrame& frame) {
   time_s = frame.time_s;
 }
 
+void Model::showResult(app::FlightResult result) {
+  results.add(std::move(result));
+  open[std::size_t(Panel::Results)] = true;
+  showNow = Panel::Results;
+}
+
 void Model::keepEdits() {
   const std::string what = takeFinishedEdit();
   if (what.empty() || sceneToJson(scene) == sceneToJson(edits.current())) return;

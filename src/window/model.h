@@ -10,6 +10,7 @@
 #include "deck.h"
 #include "flight_job.h"
 #include "frame_times.h"
+#include "painter.h"
 #include "welkin/app/edit_history.h"
 #include "welkin/app/fly_camera.h"
 #include "welkin/app/settings.h"
@@ -65,7 +66,7 @@ struct Model {
   FrameTimes times;
   double frameRate = 0;
   double loading_s = -1;  // for so long a renderer is being made; < 0: none is
-  const Renderer* renderer = nullptr;
+  std::optional<Painted> painted;  // the last picture
   std::string device;
   bool software = false;
 
@@ -85,6 +86,7 @@ struct Model {
   app::EditHistory<Scene> edits{Scene{}};
   void runTape(double dt_s);  // a recording or a replay goes on
   void show(const PathFrame& frame);
+  void showResult(app::FlightResult result);
   void keepEdits();           // what is finished can be undone
   void undo();
   void redo();

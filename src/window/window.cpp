@@ -56,8 +56,8 @@ Result<std::unique_ptr<Window>> Window::open(const Placement& wanted, const std:
   made->window_ = glfwCreateWindow(place.size.width, place.size.height, title.c_str(), nullptr, nullptr);
   if (!made->window_) return noWindow("OpenGL 4.5 is needed");
   glfwWindowHint(GLFW_MAXIMIZED, GLFW_FALSE);
-  made->hidden_ = glfwCreateWindow(1, 1, "", nullptr, made->window_);
-  if (!made->hidden_) return noWindow("a second context is needed");
+  for (auto& hidden : made->hidden_)
+    if (!(hidden = glfwCreateWindow(1, 1, "", nullptr, made->window_))) return noWindow("more than one context is needed");
   if (place.position) glfwSetWindowPos(made->window_, place.position->first, place.position->second);
   glfwShowWindow(made->window_);
   made->normal_ = place;
@@ -75,7 +75,8 @@ Result<std::unique_ptr<Window>> Window::open(const Placement& wanted, const std:
 }
 
 Window::~Window() {
-  if (hidden_) glfwDestroyWindow(hidden_);
+  for (GLFWwindow* hidden : hidden_)
+    if (hidden) glfwDestroyWindow(hidden);
   if (window_) glfwDestroyWindow(window_);
   glfwTerminate();
 }
