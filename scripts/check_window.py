@@ -419,6 +419,11 @@ def monkey(c):
             w.resize(dice.randint(100, 1280), dice.randint(100, 800))
         if w.alive():
             memory.append(w.memory_mib())
+    w.key("Escape")  # a benchmark that it began
+    state = w.wait_for(lambda s: s["flight"]["running"] == "", 30)
+    c.line("a flight that it began is stopped by Escape", state is not None, "stopped", state is not None)
+    if w.alive():
+        memory.append(w.memory_mib())
     c.line(f"alive after {seconds} s of random input (seed {seed})", w.alive(), "alive", w.alive())
     if memory:
         c.line("memory in the end over that in the middle", memory[-1] / memory[len(memory) // 2], "below 1.5", memory[-1] < 1.5 * memory[len(memory) // 2])

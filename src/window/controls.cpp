@@ -118,7 +118,7 @@ void Controls::press(Model& model, Window& window, Press press) {
   }
   if (key == GLFW_KEY_H || (key == GLFW_KEY_SLASH && (press.mods & GLFW_MOD_SHIFT))) model.help = !model.help;
   if (key == GLFW_KEY_TAB) model.sidebar = !model.sidebar;
-  if (key == GLFW_KEY_ESCAPE) model.help = false, window.captureMouse(false);
+  if (key == GLFW_KEY_ESCAPE) model.help = false, model.wanted.stopFlight = true, window.captureMouse(false);
   if (key == GLFW_KEY_M) window.captureMouse(!window.mouseCaptured());
   if (key == GLFW_KEY_HOME) model.camera.flyTo(model.home);
   if (key == GLFW_KEY_F11) window.toggleFullScreen();

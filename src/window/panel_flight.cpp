@@ -78,7 +78,7 @@ void running(Model& model) {
   ImGui::TextDisabled("%s, %s left", progress.note.c_str(), clockText(left_s).c_str());
   ImGui::ProgressBar(float(progress.fraction), {-ImGui::GetFontSize() * 5, 0});
   ImGui::SameLine();
-  if (press(stopping ? "stopping" : "Stop", "what it has written goes")) model.wanted.stopFlight = true;
+  if (press(stopping ? "stopping" : "Stop", "Escape does it too; what it has written goes")) model.wanted.stopFlight = true;
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ bool sameView(const View& a, const View& b) {
 
 class Viewer {
  public:
-  Viewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context)
+  Viewer(const ViewOptions& options, app::Settings&& settings, app::Restored&& restored, Window& window, gpu::Context& context)
       : options_(options),
         window_(window),
         context_(context),
@@ -46,7 +46,8 @@ class Viewer {
     if (!options.state.empty()) flights_.rememberShown();
     model_.device = context.device().renderer;
     model_.software = context.device().software;
-    begin(std::move(start));
+    begin(std::move(restored.start));
+    if (restored.path) loadFlight(model_, std::move(*restored.path));
     model_.settings = std::move(settings);
     interface_.setScale(model_.settings.uiScale);
   }
@@ -340,8 +341,8 @@ class Viewer {
 
 }  // namespace
 
-void runViewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context) {
-  Viewer(options, std::move(settings), std::move(start), window, context).run();
+void runViewer(const ViewOptions& options, app::Settings&& settings, app::Restored&& restored, Window& window, gpu::Context& context) {
+  Viewer(options, std::move(settings), std::move(restored), window, context).run();
 }
 
 }  // namespace welkin::window
