@@ -94,8 +94,10 @@ Result<void> runCompare(const CompareOptions& o) {
 
 void addCompare(CLI::App& app, Action& action) {
   auto o = std::make_shared<CompareOptions>();
-  auto* command = app.add_subcommand("compare", "two pictures: RMSE, PSNR, max, perceived difference; or two results of fly: times by pass");
-  command->footer("Examples:\n  welkin compare before.png after.png -o difference.png\n  welkin compare before/timings.json after/timings.json");
+  auto* command =
+      app.add_subcommand("compare", "two pictures: RMSE, PSNR, max, perceived difference; or two results of fly: times by pass");
+  command->footer(
+      "Examples:\n  welkin compare before.png after.png -o difference.png\n  welkin compare before/timings.json after/timings.json");
   command->add_option("A", o->a, "a PNG or EXR picture, or a result (JSON) of welkin fly")->required();
   command->add_option("B", o->b, "another one of the same kind; pictures of the same size")->required();
   command->add_option("-o,--output", o->difference, "write the perceived difference as a PNG picture")->check([](const std::string& text) {

@@ -46,7 +46,8 @@ ResultComparison compareResults(const FlightResult& a, const FlightResult& b) {
   time("frame, p95", a.p95_ms, b.p95_ms);
   time("frame, p99", a.p99_ms, b.p99_ms);
   time("frame, max", a.max_ms, b.max_ms);
-  out.rows.push_back({"frames a second", framesPerSecond(a), framesPerSecond(b), ratioOf(framesPerSecond(a), framesPerSecond(b)), "", false});
+  out.rows.push_back(
+      {"frames a second", framesPerSecond(a), framesPerSecond(b), ratioOf(framesPerSecond(a), framesPerSecond(b)), "", false});
   for (const auto& [name, ms] : a.passes_ms) time(name, ms, passOf(b, name));
   for (const auto& [name, ms] : b.passes_ms)
     if (find(a.passes_ms, name) == a.passes_ms.end()) time(name, {}, ms);
@@ -76,8 +77,8 @@ std::string comparisonText(const ResultComparison& c) {
   for (const auto& row : c.rows) width = std::max(width, row.name.size());
   std::string out = fmt::format("{:<{}}  {:>10}  {:>10}  {:>8}\n", "", width, "A", "B", "B / A");
   for (const auto& row : c.rows) {
-    std::string text =
-        fmt::format("{:<{}}  {:>10}  {:>10}  {:>8}  {}", row.name, width, valueText(row, row.a), valueText(row, row.b), ratioText(row), row.unit);
+    std::string text = fmt::format("{:<{}}  {:>10}  {:>10}  {:>8}  {}", row.name, width, valueText(row, row.a), valueText(row, row.b),
+                                   ratioText(row), row.unit);
     text.erase(text.find_last_not_of(' ') + 1);
     out += text + "\n";
   }

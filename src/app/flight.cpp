@@ -15,8 +15,9 @@
 namespace welkin::app {
 namespace {
 
-constexpr int kChoiceFrames = 60;     // a march for the tolerance is picked anew so often: the altitude changes by a few times in between at most
-constexpr double kSettleShare = 0.1;  // of the progress bar: about the time that settling takes of the whole flight
+constexpr int kChoiceFrames =
+    60;  // a march for the tolerance is picked anew so often: the altitude changes by a few times in between at most
+constexpr double kSettleShare = 0.1;     // of the progress bar: about the time that settling takes of the whole flight
 constexpr double kConvergedFrames = 30;  // a converged picture takes about as long as so many frames of the flight
 
 std::string heightText(double h_m) { return h_m >= 10000 ? fmt::format("{:.0f} km", h_m / 1000) : fmt::format("{:.0f} m", h_m); }
@@ -90,9 +91,7 @@ class Replay {
     }
     const int warmUp = plan_.path.warmUp, total = warmUp + plan_.end - plan_.first;
     const double settling = warmUp > 0 ? kSettleShare : 0;  // without a warm-up the flight starts from an empty tree
-    const auto drawn = [&](int count, const std::string& note) {
-      go(flightShare() * (settling + (1 - settling) * count / total), note);
-    };
+    const auto drawn = [&](int count, const std::string& note) { go(flightShare() * (settling + (1 - settling) * count / total), note); };
     if (warmUp > 0) {
       stage_.renderer->settle(pose(plan_.first).view, [&](double fraction) { return go(flightShare() * settling * fraction, "settling"); });
     }
@@ -115,7 +114,8 @@ class Replay {
     const View& view = pose(frame).view;
     const double exposure_ev = report_.frames.empty() ? view.exposure_ev.value_or(plan_.scene.output.exposure_ev.value_or(0))
                                                       : report_.frames.back().stats.exposure_ev;
-    const auto choice = measure::chooseMarch(*stage_.renderer, view, exposure_ev, *options_.common.tolerance_255, measure::DrawnAs::Reprojected);
+    const auto choice =
+        measure::chooseMarch(*stage_.renderer, view, exposure_ev, *options_.common.tolerance_255, measure::DrawnAs::Reprojected);
     if (!choice) return choice.error();
     report_.tolerance_255 = options_.common.tolerance_255;
     report_.tolerance.push_back({frame, *choice, {}});
@@ -251,11 +251,12 @@ Result<void> fly(const FlightOptions& options) {
   if (!plan) return plan.error();
   listenForStop();
   Progress progress("fly", options.common.quiet);
-  const auto report = replay(options, *plan, {[&](double fraction, const std::string& note) {
-                                                progress.update(fraction, note);
-                                                return true;  // Ctrl-C is looked after already
-                                              },
-                                              {}});
+  const auto report = replay(options, *plan,
+                             {[&](double fraction, const std::string& note) {
+                                progress.update(fraction, note);
+                                return true;  // Ctrl-C is looked after already
+                              },
+                              {}});
   progress.finish();
   if (!report) return report.error();
   if (auto written = writeFile(plan->json, report->json() + "\n"); !written) return written;

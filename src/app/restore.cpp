@@ -52,7 +52,8 @@ Result<Restored> restoreFrom(const fs::path& file) {
   const bool picture = kindOfBytes(head) != PictureKind::None;
   const auto first = head.find_first_not_of(" \t\r\n");
   if (!picture && (first == std::string::npos || head[first] != '{')) {
-    return Error{fmt::format("{}: expected a picture (PNG, EXR) of this program, a scene, a path or a result of a flight (JSON)", oneLine(file.string(), 1000))};
+    return Error{fmt::format("{}: expected a picture (PNG, EXR) of this program, a scene, a path or a result of a flight (JSON)",
+                             oneLine(file.string(), 1000))};
   }
   if (fs::file_size(file, ec) > kMostBytes)
     return Error{fmt::format("{}: expected at most {} bytes", oneLine(file.string(), 1000), kMostBytes)};

@@ -52,7 +52,7 @@ void Tape::keepBetween() {
   history_.settle();
 }
 
-bool Tape::same(const Tape& other) const {
+bool Tape::same(const Tape &other) const {
   const State &a = history_.current(), &b = other.history_.current();
   return a.frames == b.frames && a.in == b.in && a.out == b.out;
 }

@@ -65,7 +65,7 @@ struct Model {
   FrameStats stats;
   FrameTimes times;
   double frameRate = 0;
-  double loading_s = -1;  // for so long a renderer is being made; < 0: none is
+  double loading_s = -1;           // for so long a renderer is being made; < 0: none is
   std::optional<Painted> painted;  // the last picture
   std::string device;
   bool software = false;
@@ -87,7 +87,7 @@ struct Model {
   void runTape(double dt_s);  // a recording or a replay goes on
   void show(const PathFrame& frame);
   void showResult(app::FlightResult result);
-  void keepEdits();           // what is finished can be undone
+  void keepEdits();  // what is finished can be undone
   void undo();
   void redo();
   // Begins anew with this scene and view.

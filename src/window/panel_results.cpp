@@ -81,6 +81,7 @@ void plot(const app::FlightResult* const (&results)[2]) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImGui::Dummy({width, height});
   remember("results plot");
+  explain("times of the frames, over the share of the flight that is behind; of many frames in one pixel the slowest");
   draw.AddRectFilled(at, {at.x + width, at.y + height}, ImGui::GetColorU32(ImGuiCol_FrameBg), 4);
   draw.PushClipRect(at, {at.x + width, at.y + height}, true);
   std::vector<ImVec2> line;

@@ -17,7 +17,7 @@ void Presenter::show(Canvas& canvas, app::Size window) const {
 
 void Presenter::showWhole(const gpu::Texture& picture, app::Size window) const {
   clear(window);
-  const auto &spec = picture.spec();
+  const auto& spec = picture.spec();
   const double scale = std::min(double(window.width) / spec.width, double(window.height) / spec.height);
   const int width = int(std::lround(spec.width * scale)), height = int(std::lround(spec.height * scale));
   const int x = (window.width - width) / 2, y = (window.height - height) / 2;

@@ -50,7 +50,8 @@ bool tapeBar(Deck& deck) {
     if (reset && g_held != Held::Place) g_held = Held::None;  // else it would follow the mouse again
   }
   if (ImGui::IsItemDeactivated()) deck.tape.letGo();
-  if (!active) explain("Drag above to move along the flight, below to set the in and out points. A double click below brings a point back.");
+  if (!active)
+    explain("Drag above to move along the flight, below to set the in and out points. A double click below brings a point back.");
 
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float round = 0.25f * letters;

@@ -306,7 +306,8 @@ class Viewer {
     if (options_.state.empty()) return;
     counts_.seconds = (gpu::wall_ms() - options_.begun_ms) / 1000;
     counts_.glMessages = context_.debugMessages() + painter().glMessages() + other().glMessages();
-    if (auto written = writeFile(options_.state, stateJson(model_, counts_, flights_.shown())); !written) log::warn("{}", written.error().message);
+    if (auto written = writeFile(options_.state, stateJson(model_, counts_, flights_.shown())); !written)
+      log::warn("{}", written.error().message);
   }
 
   const ViewOptions& options_;

@@ -35,8 +35,7 @@ std::vector<Area> areas() {
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
   std::vector<Area> out(std::size_t(std::max(count, 0)));
-  for (std::size_t i = 0; i < out.size(); ++i)
-    glfwGetMonitorWorkarea(monitors[i], &out[i].x, &out[i].y, &out[i].width, &out[i].height);
+  for (std::size_t i = 0; i < out.size(); ++i) glfwGetMonitorWorkarea(monitors[i], &out[i].x, &out[i].y, &out[i].width, &out[i].height);
   std::erase_if(out, [](const Area& a) { return a.width <= 0 || a.height <= 0; });
   return out;
 }

@@ -1,5 +1,5 @@
-// The least window manager that can maximise, for scripts/check_window.py: windows lie where they ask to, and those whose _NET_WM_STATE asks
-// for it (Extended Window Manager Hints 1.5) cover the screen.
+// The least window manager that can maximise, for scripts/check_window.py: windows lie where they ask to, and those whose _NET_WM_STATE
+// asks for it (Extended Window Manager Hints 1.5) cover the screen.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 
@@ -40,10 +40,11 @@ int main() {
   XSetErrorHandler(ignore);
   const Window root = DefaultRootWindow(g_display), self = XCreateSimpleWindow(g_display, root, 0, 0, 1, 1, 0, 0, 0);
   for (const Window w : {root, self})
-    XChangeProperty(g_display, w, atom("_NET_SUPPORTING_WM_CHECK"), XA_WINDOW, 32, PropModeReplace, reinterpret_cast<const unsigned char*>(&self), 1);
+    XChangeProperty(g_display, w, atom("_NET_SUPPORTING_WM_CHECK"), XA_WINDOW, 32, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(&self), 1);
   const std::vector<Atom> known{atom("_NET_WM_STATE"), atom("_NET_WM_STATE_MAXIMIZED_VERT"), atom("_NET_WM_STATE_MAXIMIZED_HORZ")};
-  XChangeProperty(g_display, root, atom("_NET_SUPPORTED"), XA_ATOM, 32, PropModeReplace, reinterpret_cast<const unsigned char*>(known.data()),
-                  int(known.size()));
+  XChangeProperty(g_display, root, atom("_NET_SUPPORTED"), XA_ATOM, 32, PropModeReplace,
+                  reinterpret_cast<const unsigned char*>(known.data()), int(known.size()));
   XSelectInput(g_display, root, SubstructureRedirectMask | SubstructureNotifyMask);
   std::puts("ready");
   std::fflush(stdout);

@@ -114,8 +114,8 @@ TEST(FlightResult, WrongFilesAreOneLine) {
   for (const auto& text : bad) {
     const auto result = parseFlightResult(text, "r.json");
     ASSERT_FALSE(result.ok()) << text.substr(0, 80);
-    EXPECT_THAT(result.error().message, testing::AnyOf(testing::StartsWith("r.json: expected"),
-                                            testing::MatchesRegex("r.json: /.*: expected .*")))
+    EXPECT_THAT(result.error().message,
+                testing::AnyOf(testing::StartsWith("r.json: expected"), testing::MatchesRegex("r.json: /.*: expected .*")))
         << text.substr(0, 80);
     EXPECT_EQ(result.error().message.find('\n'), std::string::npos);
   }

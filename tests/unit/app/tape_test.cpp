@@ -17,8 +17,7 @@ FlightPath someFlight(int frames = 101) {
   FlightPath path;
   path.name = "test";
   path.width = 320, path.height = 180, path.warmUp = 7, path.timeStep_s = kStep_s;
-  for (int i = 0; i < frames; ++i)
-    path.frames.push_back({toView({0.01 * i, 7, 1000.0 + i / 3.0, 40, -20, 0, 58, {}}, kEarth_m), 0.5 * i});
+  for (int i = 0; i < frames; ++i) path.frames.push_back({toView({0.01 * i, 7, 1000.0 + i / 3.0, 40, -20, 0, 58, {}}, kEarth_m), 0.5 * i});
   return path;
 }
 std::string text(const PathFrame& f) { return viewToJson(f.view) + std::to_string(f.time_s); }

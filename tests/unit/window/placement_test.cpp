@@ -46,7 +46,8 @@ TEST(Placement, AnyPositionEndsWithinReach) {
   const Area both[] = {kLeft, kRight};
   const auto below = [&](int n) { return int(random() % unsigned(n)); };
   for (int i = 0; i < 20000; ++i) {
-    const Placement wanted{{1 + below(5000), 1 + below(5000)}, std::pair(below(2'000'000) - 1'000'000, below(2'000'000) - 1'000'000), false};
+    const Placement wanted{
+        {1 + below(5000), 1 + below(5000)}, std::pair(below(2'000'000) - 1'000'000, below(2'000'000) - 1'000'000), false};
     const Placement p = onto(both, wanted);
     const auto [x, y] = *p.position;
     EXPECT_TRUE(x < 1920 + 2560 && x + p.size.width > 0 && y >= 0 && y < 1440) << x << " " << y;

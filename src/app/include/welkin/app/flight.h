@@ -20,7 +20,7 @@ struct FlightOptions {
   std::filesystem::path video;  // empty: none
   std::optional<int> every;     // frames between pictures; 0: none; absent: about a dozen pictures
   std::vector<int> qualityFrames;
-  std::optional<FrameRange> pop;  // frames whose change by the tree alone is measured (two more full marches each)
+  std::optional<FrameRange> pop;        // frames whose change by the tree alone is measured (two more full marches each)
   std::uint32_t bricksPerFrame = 2048;  // a descent of 4 % of the altitude a frame renews what is seen every 25 frames
   std::uint32_t workerJitter = 0;
   bool waitForEdits = true;

@@ -12,10 +12,10 @@ namespace welkin::app {
 
 struct FlightResult {
   std::filesystem::path file;
-  std::vector<double> frame_ms;                          // wall time of each frame, in order; at least one
+  std::vector<double> frame_ms;                              // wall time of each frame, in order; at least one
   double median_ms = 0, p95_ms = 0, p99_ms = 0, max_ms = 0;  // of these
-  std::vector<std::pair<std::string, double>> passes_ms;  // medians, wall, in the order in which they run
-  double wait_ms = 0;                                     // for the worker, all frames together
+  std::vector<std::pair<std::string, double>> passes_ms;     // medians, wall, in the order in which they run
+  double wait_ms = 0;                                        // for the worker, all frames together
   double nanPixels = 0, holes = 0, glMessages = 0, greatestBytes = 0;
   std::optional<double> rmse_255;  // median against converged pictures, if that was measured
   bool stopped = false;

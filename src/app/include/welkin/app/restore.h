@@ -10,8 +10,8 @@ enum class RestoredKind { Scene, Picture, Path, FlightResult };
 
 struct Restored {
   RestoredKind kind;
-  Start start;                     // scene, view, size, time; of a path its first frame
-  std::optional<FlightPath> path;  // of a path
+  Start start;                         // scene, view, size, time; of a path its first frame
+  std::optional<FlightPath> path;      // of a path
   std::optional<FlightResult> result;  // of a result, which has nothing else
 };
 // By the file's first bytes, not its name. Errors, one line each: not there, a folder or no plain file, unreadable, too large, broken, a

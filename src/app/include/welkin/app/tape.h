@@ -16,7 +16,7 @@ class Tape {
 
   bool empty() const { return all().empty(); }
   int frames() const { return int(all().size()); }
-  double step_s() const;                                                       // between frames, over 0
+  double step_s() const;  // between frames, over 0
   double duration_s() const { return empty() ? 0 : step_s() * (frames() - 1); }
   // The pose at a time from the first frame, between two frames if need be; on a frame it is that one to the bit. Not of an empty tape.
   PathFrame at(double time_s) const;
