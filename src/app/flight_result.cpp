@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "welkin/core/files.h"
+#include "welkin/core/units.h"
 #include "welkin/measure/statistics.h"
 
 namespace welkin::app {
@@ -47,8 +48,13 @@ void readSettings(const Json& context, FlightResult& out) {
   if (!settings.is_object()) throw Bad{"/context/settings: expected an object"};
   if (settings.contains("width") && settings.contains("height"))
     add("size", plainText(settings["width"]) + "x" + plainText(settings["height"]));
-  for (const auto& [name, value] : settings.items())
-    if (name != "width" && name != "height") add(name.c_str(), plainText(value));
+  for (const auto& [name, value] : settings.items()) {
+    if (name == "width" || name == "height") continue;
+    if (name == "budget_bytes" && value.is_number_unsigned())
+      add("budget", bytesText(value.get<std::uint64_t>()));
+    else
+      add(name.c_str(), plainText(value));
+  }
   for (const char* name : {"scene", "path", "gl_renderer", "gl_version", "cpu", "num_cpus", "build", "commit", "timer"})
     if (context.contains(name)) add(name, plainText(context[name]));
   if (context.contains("data") && context["data"].is_object())

@@ -110,15 +110,22 @@ void differences(const app::ResultComparison& c) {
     return;
   }
   ImGui::TextDisabled("different");
+  const float letters = ImGui::GetFontSize(), room = ImGui::GetContentRegionAvail().x;
+  ImGui::PushTextWrapPos(0);
   for (const auto& d : c.different) {
     ImGui::TextUnformatted(d.name.c_str());
-    ImGui::PushTextWrapPos(0);
-    ImGui::Indent();
+    const bool narrow = std::max(ImGui::CalcTextSize(d.a.c_str()).x, ImGui::CalcTextSize(d.b.c_str()).x) < 0.28f * room;
+    if (narrow) {
+      ImGui::SameLine(0.42f * room), coloured(0, d.a);
+      ImGui::SameLine(0.74f * room), coloured(1, d.b);
+      continue;
+    }
+    ImGui::Indent(letters);
     coloured(0, d.a);
     coloured(1, d.b);
-    ImGui::Unindent();
-    ImGui::PopTextWrapPos();
+    ImGui::Unindent(letters);
   }
+  ImGui::PopTextWrapPos();
 }
 
 }  // namespace
