@@ -174,4 +174,12 @@ def recording(c):
         w.wait_for(lambda s: s["message"].startswith("wrote the video"), 200)
         film = os.path.join(w.shots, "welkin-path-2.mp4")
         c.line("a video, bytes", os.path.getsize(film) if os.path.exists(film) else 0, "over 1000", os.path.exists(film) and os.path.getsize(film) > 1000)
+    w.key("r")
+    w.wait_for(lambda s: s["flight"]["mode"] == "recording", 10)
+    w.drop(paths[0])
+    said = w.wait_for(lambda s: "has ended" in s["message"], 20)
+    c.line("a path dropped while one is recorded", said["flight"]["mode"] if said else "none", "a message, and recording goes on",
+           said is not None and said["flight"]["mode"] == "recording")
+    w.key("r")
+    w.wait_for(lambda s: s["message"].startswith("wrote the path"), 20)
     c.end(w, "recording")

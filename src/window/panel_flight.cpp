@@ -14,7 +14,7 @@ void record(Model& model) {
     ImGui::TextColored({1, 0.45f, 0.4f, 1}, "recording, %.1f s", model.deck.at_s());
     return;
   }
-  if (press("Record", "from now on, what the camera does, until it is stopped; R too")) model.deck.record();
+  if (press("Record", "from now on, what the camera does, in place of this flight; R too")) model.deck.record();
   if (model.deck.tape.empty()) ImGui::SameLine(), ImGui::TextDisabled("or drop a path onto the window");
 }
 

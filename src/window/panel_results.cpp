@@ -95,7 +95,7 @@ void plot(const app::FlightResult* const (&results)[2]) {
       const double part = ms.size() > 1 ? double(i) / double(ms.size() - 1) : 0;
       line.push_back({at.x + width * float(part), at.y + height * float(1 - slowest / top)});
     }
-    draw.AddPolyline(line.data(), int(line.size()), kColours[k], 0, 1.5f);
+    draw.AddPolyline(line.data(), int(line.size()), kColours[k], 0, 0.1f * letters);
   }
   draw.PopClipRect();
   const std::string scale = fmt::format("{:.3g} ms", top);

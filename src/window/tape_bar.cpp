@@ -60,12 +60,12 @@ bool tapeBar(Deck& deck) {
   for (double s = 0, step = tickStep_s(whole_s); s <= whole_s * 1.0001; s += step)
     draw.AddLine({x(s), bottom - 0.4f * letters}, {x(s), bottom - 2}, kTick);
   const auto point = [&](float px, float way) {  // a bracket that opens towards what is kept
-    draw.AddLine({px, at.y + 2}, {px, bottom - 2}, kPoint, 2);
+    draw.AddLine({px, at.y + 2}, {px, bottom - 2}, kPoint, 0.13f * letters);
     draw.AddTriangleFilled({px, bottom - 0.95f * letters}, {px, bottom - 1}, {px + way * 0.55f * letters, bottom - 1}, kPoint);
   };
   point(in, 1), point(out, -1);
   const float place = x(deck.at_s());
-  draw.AddLine({place, at.y}, {place, bottom}, kPlace, 2);
+  draw.AddLine({place, at.y}, {place, bottom}, kPlace, 0.13f * letters);
   draw.AddCircleFilled({place, at.y + 0.35f * letters}, 0.32f * letters, kPlace);
   return moved;
 }

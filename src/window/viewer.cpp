@@ -166,7 +166,10 @@ class Viewer {
       const auto ended = model_.deck.endRecording(model_.scene.name, model_.window.width, model_.window.height);
       if (!ended) model_.say(ended.error().message, true);
     }
-    if (wanted.flight && !flights_.running()) replay(*wanted.flight);
+    if (wanted.flight && loading_ && !wanted.stopFlight)
+      model_.wanted.flight = wanted.flight;  // once the scene is there: making it would be measured too
+    else if (wanted.flight && !flights_.running())
+      replay(*wanted.flight);
     if (wanted.savePath) save("path", writePath(model_, folder()));
     if (model_.settingsChanged) model_.settingsChanged = false, keepSettings();
     if (wanted.march) order_.march = later_.march = model_.scene.quality;
@@ -259,6 +262,8 @@ class Viewer {
       model_.showResult(std::move(*restored.result));
       return;
     }
+    if (restored.path && (flights_.running() || model_.deck.mode() == Deck::Mode::Recording))
+      return model_.say("a flight is loaded once the one that is recorded or replayed has ended", true);
     const auto notes = restored.start.notes;
     begin(std::move(restored.start));
     const bool flight = restored.path.has_value();
