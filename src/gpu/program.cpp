@@ -103,7 +103,6 @@ thread_local std::shared_ptr<ProgramPool> t_pool;
 void usePool(std::shared_ptr<ProgramPool> pool) { t_pool = std::move(pool); }
 
 GLuint ProgramPool::take(const std::string& key) {
-  const std::lock_guard lock(mutex_);
   const auto found = free_.find(key);
   if (found == free_.end()) return 0;
   const GLuint id = found->second;
@@ -112,7 +111,6 @@ GLuint ProgramPool::take(const std::string& key) {
 }
 
 void ProgramPool::give(const std::string& key, GLuint id) {
-  const std::lock_guard lock(mutex_);
   free_.emplace(key, id);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "frame_times.h"
+#include "painter.h"
 #include "welkin/app/edit_history.h"
 #include "welkin/app/fly_camera.h"
 #include "welkin/app/recorder.h"
@@ -51,7 +52,7 @@ struct Model {
   FrameTimes times;
   double frameRate = 0;
   double loading_s = -1;  // for so long a renderer is being made; < 0: none is
-  const Renderer* renderer = nullptr;
+  std::optional<Painted> painted;  // the last picture
   std::string device;
   bool software = false;
 

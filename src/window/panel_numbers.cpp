@@ -53,14 +53,14 @@ void memoryPanel(Model& model) {
   ImGui::TextDisabled("bricks by level of the octree");
   ImGui::PlotHistogram("##levels", levels.data(), int(levels.size()), 0, nullptr, 0, FLT_MAX,
                        {ImGui::GetContentRegionAvail().x, 4 * ImGui::GetTextLineHeightWithSpacing()});
-  if (!model.renderer || !ImGui::TreeNode("what takes it")) return;
-  for (const auto& [name, bytes] : model.renderer->memory().byName()) line(name, bytesText(bytes));
+  if (!model.painted || !ImGui::TreeNode("what takes it")) return;
+  for (const auto& [name, bytes] : model.painted->memory) line(name, bytesText(bytes));
   ImGui::TreePop();
 }
 
 void leftOutPanel(Model& model) {
-  if (!model.renderer) return;
-  const FramePlan& plan = model.renderer->plan();
+  if (!model.painted) return;
+  const FramePlan& plan = model.painted->plan;
   ImGui::PushTextWrapPos(0);
   std::string passes;
   for (const auto& pass : plan.passes) passes += (passes.empty() ? "" : ", ") + pass;
@@ -71,7 +71,7 @@ void leftOutPanel(Model& model) {
     ImGui::TextWrapped("%s: %s", left.what.c_str(), left.reason.c_str());
   }
   if (!plan.skyModel.empty()) ImGui::TextWrapped("Sky: %s (%s).", plan.skyModel.c_str(), plan.skyReason.c_str());
-  for (const auto& note : model.renderer->notes()) ImGui::TextWrapped("%s", note.c_str());
+  for (const auto& note : model.painted->notes) ImGui::TextWrapped("%s", note.c_str());
   ImGui::PopTextWrapPos();
 }
 

@@ -72,7 +72,7 @@ void status(const Model& model) {
 }
 
 void message(const Model& model) {
-  const bool first = !model.renderer;  // nothing to see yet
+  const bool first = !model.painted;  // nothing to see yet
   if (!first && gpu::wall_ms() / 1000 > model.messageUntil_s) return;
   const std::string text = first && (model.message.empty() || !model.messageBad) ? "preparing " + model.scene.name + " ..." : model.message;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;

@@ -2,11 +2,14 @@
 
 namespace welkin::window {
 
-void Presenter::show(const gpu::Texture& picture, app::Size window) const {
+void Presenter::show(Canvas& canvas, app::Size window) const {
+  const gpu::Texture& picture = canvas.texture;
   glNamedFramebufferTexture(frame_, GL_COLOR_ATTACHMENT0, picture.id(), 0);
   glViewport(0, 0, window.width, window.height);
   glBlitNamedFramebuffer(frame_, 0, 0, 0, picture.spec().width, picture.spec().height, 0, window.height, window.width, 0,
                          GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  if (canvas.read) glDeleteSync(canvas.read);
+  canvas.read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
 void Presenter::clear(app::Size window) const {

@@ -2,8 +2,7 @@
 // Brings a picture of any size onto the window.
 #include <glad/gl.h>
 
-#include "welkin/app/options.h"
-#include "welkin/gpu/resources.h"
+#include "painter.h"
 
 namespace welkin::window {
 
@@ -13,7 +12,7 @@ class Presenter {
   ~Presenter() { glDeleteFramebuffers(1, &frame_); }
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
-  void show(const gpu::Texture& picture, app::Size window) const;  // top row first; stretched, between pixels linearly
+  void show(Canvas& picture, app::Size window) const;  // stretched, between pixels linearly
   void clear(app::Size window) const;
 
  private:

@@ -34,9 +34,7 @@ void Screenshots::add(std::function<Result<std::string>()> job) {
   more_.notify_one();
 }
 
-void Screenshots::takeAsSeen(Image8 image, const Renderer& renderer, const View& view, double exposure_ev, double time_s) {
-  // The state is put together here: the renderer may be gone when the thread comes to it.
-  app::PictureState state = app::stateOf(renderer, view, exposure_ev, {image.width, image.height}, time_s, false, {});
+void Screenshots::takeAsSeen(Image8 image, app::PictureState state) {
   add([this, image = std::move(image), state = std::move(state)]() mutable -> Result<std::string> {
     state.data = app::dataChecksums(state.scene);
     const auto file = newFile(folder_, state.view, state.scene, {".png"});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "welkin/app/options.h"
+#include "welkin/app/picture.h"
 #include "welkin/render/renderer.h"
 
 namespace welkin::window {
@@ -19,7 +20,7 @@ class Screenshots {
   Screenshots(std::filesystem::path folder, std::string gpu);
   ~Screenshots();  // after what is being written; a picture still being drawn is given up
 
-  void takeAsSeen(Image8 image, const Renderer& renderer, const View& view, double exposure_ev, double time_s);
+  void takeAsSeen(Image8 image, app::PictureState state);  // checksums of data are added
   void takeConverged(const Scene& scene, const View& view, app::Size size, double time_s);  // PNG and EXR
   struct Note {
     std::string text;

@@ -45,9 +45,9 @@ std::string stateJson(const Model& m, const Counts& c) {
                    {"pictures", c.pictures},
                    {"first_picture_s", c.firstPicture_s},
                    {"worst_frame_ms", c.worstFrame_ms},
-                   {"switch_ms", c.switch_ms},
                    {"worst_frame", c.worst_ms},
                    {"resizes", c.resizes},
+                   {"made", c.made},
                    {"nan_pixels", c.nanPixels},
                    {"holes", c.holes},
                    {"gl_messages", c.glMessages}};

@@ -8,9 +8,8 @@
 namespace welkin::window {
 
 struct Counts {  // since the window opened
-  std::uint64_t frames = 0, pictures = 0, nanPixels = 0, holes = 0, glMessages = 0, resizes = 0;
-  double seconds = 0, firstPicture_s = -1, worstFrame_ms = 0, switch_ms = 0;
-  // Worst: but for the first pictures of each renderer, whose shaders are compiled then; the slowest of these: switch_ms.
+  std::uint64_t frames = 0, pictures = 0, nanPixels = 0, holes = 0, glMessages = 0, resizes = 0, made = 0;  // made: renderers
+  double seconds = 0, firstPicture_s = -1, worstFrame_ms = 0;  // worst: but for the very first
   std::map<std::string, double> worst_ms;  // parts of the worst frame
 };
 

@@ -8,9 +8,9 @@
 #include "file_loader.h"
 #include "interface.h"
 #include "log_lines.h"
+#include "painter.h"
 #include "panels.h"
 #include "presenter.h"
-#include "renderer_loader.h"
 #include "screenshots.h"
 #include "state_report.h"
 #include "welkin/app/settings.h"
@@ -24,8 +24,9 @@ namespace welkin::window {
 namespace {
 
 constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
-constexpr std::uint64_t kFirstPictures = 8;  // not among the slowest: shaders are compiled for them
-constexpr double kSpareDetail = 1.4;         // for the next step of a flight
+constexpr double kMostWait_ms = 33;        // for a picture; one that takes longer is shown in a later frame, and the interface goes on
+constexpr std::uint64_t kFirstFrames = 8;  // not among the slowest: the interface's shaders are compiled for them
+constexpr double kSpareDetail = 1.4;       // for the next step of a flight
 
 bool sameView(const View& a, const View& b) {
   return a.position_m == b.position_m && a.orientation == b.orientation && a.fov_deg == b.fov_deg && a.exposure_ev == b.exposure_ev;
@@ -38,10 +39,8 @@ class Viewer {
         window_(window),
         context_(context),
         interface_(window),
-        glThread_(window.hidden(), pool_),
-        loader_(glThread_, context),
+        painters_{std::make_unique<Painter>(window.hidden(0)), std::make_unique<Painter>(window.hidden(1))},
         shots_(options.shots, options.common.gpu) {
-    gpu::usePool(pool_);
     model_.device = context.device().renderer;
     model_.software = context.device().software;
     begin(std::move(start));
@@ -89,59 +88,61 @@ class Viewer {
     model_.frameRate += (1 / std::max(dt_s, 1e-3) - model_.frameRate) * std::min(1.0, dt_s * 2);
     carryOut();
     model_.window = window_.pixels();
-    begun_ms_ = gpu::wall_ms();
     const bool minimised = model_.window.width <= 0 || model_.window.height <= 0;
-    if (!minimised) {
-      draw(dt_s);
-      if (model_.software) glFinish();  // so that the profiler tells the parts apart
-      const double drawn_ms = gpu::wall_ms();
-      interface_.begin();
-      drawInterface(model_);
-      interface_.end();
-      if (model_.software) glFinish();
-      const double interface_ms = gpu::wall_ms();
-      window_.swap();
-      const double shown_ms = gpu::wall_ms();
-      // A GPU waits for the display in swap; software has a copy to make.
-      const double frame_ms = (model_.software ? shown_ms : interface_ms) - now_ms;
-      if (drawn_)
-        timed(frame_ms, {{"input", begun_ms_ - now_ms},
-                         {"draw", pictured_ms_ - begun_ms_},
-                         {"stretch", drawn_ms - pictured_ms_},
-                         {"interface", interface_ms - drawn_ms},
-                         {"show", shown_ms - interface_ms}});
-      if (drawn_ && counts_.firstPicture_s < 0) {
-        counts_.firstPicture_s = (gpu::wall_ms() - options_.begun_ms) / 1000;
-        log::info("first picture after {:.2f} s", counts_.firstPicture_s);
-      }
-    }
+    if (!minimised) show(now_ms, dt_s);
     ++counts_.frames;
-    idle_ = minimised || !drawn_ || model_.stats.leftOut == "nothing-moves";
+    idle_ = minimised || !model_.painted || (model_.stats.leftOut == "nothing-moves" && !loading_);
     if (now_ms - reported_ms_ > 1000 * kStateEvery_s) reported_ms_ = now_ms, report();
   }
 
+  // A picture and the interface over it. Without a new picture in time, the last one.
+  void show(double begun_ms, double dt_s) {
+    const double input_ms = gpu::wall_ms();
+    const std::optional<double> picture_ms = draw(dt_s);
+    const double pictured_ms = gpu::wall_ms();
+    if (model_.painted && model_.painted->canvas)
+      presenter_.show(*model_.painted->canvas, model_.window);
+    else
+      presenter_.clear(model_.window);
+    if (model_.software) glFinish();  // so that the profiler tells the parts apart
+    const double stretched_ms = gpu::wall_ms();
+    interface_.begin();
+    drawInterface(model_);
+    interface_.end();
+    if (model_.software) glFinish();
+    const double interface_ms = gpu::wall_ms();
+    window_.swap();
+    const double shown_ms = gpu::wall_ms();
+    const std::map<std::string, double> parts_ms{{"input", input_ms - begun_ms},
+                                                 {"picture", pictured_ms - input_ms},
+                                                 {"stretch", stretched_ms - pictured_ms},
+                                                 {"interface", interface_ms - stretched_ms},
+                                                 {"show", shown_ms - interface_ms}};
+    // A GPU waits for the display in swap; software has a copy to make.
+    const double end_ms = model_.software ? shown_ms : interface_ms;
+    if (counts_.frames > kFirstFrames && end_ms - begun_ms > counts_.worstFrame_ms)
+      counts_.worstFrame_ms = end_ms - begun_ms, counts_.worst_ms = parts_ms;
+    if (picture_ms) timed(*picture_ms + input_ms - begun_ms + end_ms - pictured_ms, parts_ms);
+    if (picture_ms && counts_.firstPicture_s < 0) {
+      counts_.firstPicture_s = (gpu::wall_ms() - options_.begun_ms) / 1000;
+      log::info("first picture after {:.2f} s", counts_.firstPicture_s);
+    }
+  }
+
+  // frame_ms: the picture's and the interface's, whether they were one after the other or not.
   void timed(double frame_ms, const std::map<std::string, double>& parts_ms) {
     if (model_.stats.leftOut != "nothing-moves") model_.scale.frame(frame_ms, rests());
     auto passes = model_.stats.passes;
     for (const auto& [name, ms] : parts_ms)
-      if (name != "draw") passes[name].wall_ms = ms;  // its passes are told one by one
+      if (name != "picture") passes[name].wall_ms = ms;  // its passes are told one by one
     model_.times.add(frame_ms, passes);
-    if (pictures_ <= kFirstPictures)
-      counts_.switch_ms = std::max(counts_.switch_ms, frame_ms);
-    else if (frame_ms > counts_.worstFrame_ms) {
-      counts_.worstFrame_ms = frame_ms;
-      counts_.worst_ms = parts_ms;
-      for (const auto& [name, time] : passes) counts_.worst_ms[name] = time.wall_ms;
-    }
-    if (!renderer_) return;
     pace_.made(model_.stats.bricksGenerated, passes["bricks"].wall_ms + passes["light"].wall_ms);
-    renderer_->setBricksPerFrame(pace_.perFrame());
   }
 
   // Has nobody moved or pressed anything for a while, and is the picture as sharp as its size lets it be?
   bool rests() const {
-    return gpu::wall_ms() - moved_ms_ > kRest_ms && loader_.since_s() == 0 && renderer_ &&
-           model_.stats.sampleDetail >= 0.99 * renderer_->shownDetail(model_.view());
+    return gpu::wall_ms() - moved_ms_ > kRest_ms && !loading_ && model_.painted &&
+           model_.stats.sampleDetail >= 0.99 * model_.painted->shownDetail;
   }
 
   // What is asked for is done, or begun.
@@ -153,20 +154,14 @@ class Viewer {
     if (wanted.saveScene) save("scene", writeScene(model_, folder()));
     if (wanted.savePath) save("path", writePath(model_, folder()));
     if (model_.settingsChanged) model_.settingsChanged = false, keepSettings();
-    if (renderer_ && !rebuild) {
-      const auto done = [this](const Result<void>& r) {
-        if (!r) model_.say(r.error().message, true);
-      };
-      if (wanted.march) done(renderer_->setMarch(model_.scene.quality));
-      if (wanted.output) done(renderer_->setOutput(model_.scene.output));
-      if (wanted.air && !renderer_->setAir(model_.scene, Renderer::AirChange::Recompute)) rebuild = true;
-    }
-    if (rebuild) loader_.begin(model_.scene, settings(), model_.view());
-    if (auto made = loader_.take()) use(std::move(*made));
-    model_.loading_s = loader_.busy() ? loader_.since_s() : -1;
-    if (wanted.picture && renderer_ && drawn_)
-      shots_.takeAsSeen(renderer_->image(), *renderer_, model_.view(), model_.stats.exposure_ev, model_.time_s);
-    if (wanted.convergedPicture && renderer_) {
+    if (wanted.march) order_.march = later_.march = model_.scene.quality;
+    if (wanted.output) order_.output = later_.output = model_.scene.output;
+    if (wanted.air) order_.air = later_.air = model_.scene;
+    if (wanted.picture) keep_ = true;
+    if (rebuild || std::exchange(airRefused_, false)) make();
+    if (auto made = other().made()) take(*made);
+    model_.loading_s = loading_ ? (gpu::wall_ms() - makeBegun_ms_) / 1000 : -1;
+    if (wanted.convergedPicture) {
       shots_.takeConverged(model_.scene, model_.view(), model_.window, model_.time_s);
       model_.say("a converged picture is being made");
     }
@@ -184,17 +179,26 @@ class Viewer {
     return s;
   }
 
-  void use(RendererLoader::Made made) {
+  // A renderer for the scene as it is now, by the painter that does not show; the other goes on until it is there.
+  void make() {
+    loading_ = true;
+    makeBegun_ms_ = gpu::wall_ms();
+    later_ = {};
+    other().make(model_.scene, settings(), model_.view());
+  }
+
+  void take(const Result<void>& made) {
+    loading_ = false;
     if (!made) {
       model_.say(made.error().message, true);
       return;
     }
-    loader_.end(std::move(renderer_));
-    renderer_ = std::move(*made);
-    model_.renderer = renderer_.get();
-    drawn_ = false;
-    pictures_ = 0;
-    for (const auto& note : renderer_->notes()) model_.say(note, true);
+    ++counts_.made;
+    painter().end();
+    shown_ = 1 - shown_;
+    painter().take(0);  // the last picture of the renderer that it had before
+    order_.march = later_.march, order_.output = later_.output, order_.air = later_.air;  // what was changed while it was made
+    told_ = false;
   }
 
   void save(const char* what, const Result<std::filesystem::path>& file) {
@@ -236,32 +240,43 @@ class Viewer {
     for (const auto& note : notes) model_.say(note, true);
   }
 
-  void draw(double dt_s) {
-    const app::Size size = model_.scale.sizeFor(model_.window);
-    if (renderer_) {
-      if (size.width != model_.picture.width || size.height != model_.picture.height || !drawn_) {
-        if (auto fits = renderer_->resize(size.width, size.height); !fits) model_.say(fits.error().message, true);
-        model_.picture = size;
-        ++counts_.resizes;
-      }
-      const View view = model_.view();
-      model_.stats = renderer_->frame(view, model_.reprojection ? FrameMode::Reprojected : FrameMode::Full, dt_s);
-      drawn_ = true;
-      ++counts_.pictures, ++pictures_;
-      counts_.nanPixels += model_.stats.counters.nanPixels;
-      if (model_.stats.sampleDetail >= 1) counts_.holes += model_.stats.counters.holes;  // before, the tree promises nothing
+  // Orders a picture if none is being drawn, and waits for it, but not for long. If it came: what it took.
+  std::optional<double> draw(double dt_s) {
+    order_.sinceLast_s += dt_s;
+    if (!painter().drawing()) {
+      const app::Size size = model_.scale.sizeFor(model_.window);
+      order_.size = {std::max(size.width, 16), std::max(size.height, 16)};
+      order_.view = model_.view();
+      order_.mode = model_.reprojection ? FrameMode::Reprojected : FrameMode::Full;
+      order_.time_s = model_.time_s;
+      order_.bricksPerFrame = pace_.perFrame();
+      order_.keep = keep_;
+      painter().draw(std::exchange(order_, {}));
     }
-    pictured_ms_ = gpu::wall_ms();
-    if (renderer_ && drawn_)
-      presenter_.show(renderer_->shown(), model_.window);
-    else
-      presenter_.clear(model_.window);
+    auto painted = painter().take(kMostWait_ms);
+    if (!painted || !painted->canvas) return {};  // before the first renderer is there, an empty one
+    model_.stats = painted->stats;
+    if (painted->size.width != model_.picture.width || painted->size.height != model_.picture.height) ++counts_.resizes;
+    model_.picture = painted->size;
+    for (const auto& failed : painted->failed) model_.say(failed, true);
+    if (!std::exchange(told_, true))
+      for (const auto& note : painted->notes) model_.say(note, true);
+    airRefused_ = painted->airRefused;
+    if (painted->kept) keep_ = false, shots_.takeAsSeen(std::move(painted->kept->image), std::move(painted->kept->state));
+    ++counts_.pictures;
+    counts_.nanPixels += model_.stats.counters.nanPixels;
+    if (model_.stats.sampleDetail >= 1) counts_.holes += model_.stats.counters.holes;  // before, the tree promises nothing
+    model_.painted = std::move(*painted);
+    return model_.painted->ms;
   }
+
+  Painter& painter() { return *painters_[std::size_t(shown_)]; }
+  Painter& other() { return *painters_[std::size_t(1 - shown_)]; }
 
   void report() {
     if (options_.state.empty()) return;
     counts_.seconds = (gpu::wall_ms() - options_.begun_ms) / 1000;
-    counts_.glMessages = context_.debugMessages() + glThread_.glMessages();
+    counts_.glMessages = context_.debugMessages() + painter().glMessages() + other().glMessages();
     if (auto written = writeFile(options_.state, stateJson(model_, counts_)); !written) log::warn("{}", written.error().message);
   }
 
@@ -272,21 +287,25 @@ class Viewer {
   Model model_;
   Interface interface_;
   Presenter presenter_;
-  std::shared_ptr<gpu::ProgramPool> pool_ = std::make_shared<gpu::ProgramPool>();
-  GlThread glThread_;
-  RendererLoader loader_;
+  std::array<std::unique_ptr<Painter>, 2> painters_;  // one's pictures are shown; the other makes the next renderer
+  int shown_ = 0;                                     // which
   Screenshots shots_;
   Controls controls_;
-  std::unique_ptr<Renderer> renderer_;
   FileLoader files_;
   Counts counts_;
   BrickPace pace_;
-  bool drawn_ = false;          // a picture of this renderer is there
-  std::uint64_t pictures_ = 0;  // of this renderer
+  Order order_;  // the next
+  struct {
+    std::optional<Quality> march;
+    std::optional<Output> output;
+    std::optional<Scene> air;
+  } later_;                                                                  // changed while a renderer is made
+  bool loading_ = false, airRefused_ = false, keep_ = false, told_ = false;  // keep: a picture is to be written; told: the renderer's notes
+  double makeBegun_ms_ = 0;
   bool idle_ = false;
   View last_;
   double moved_ms_ = 0;  // the last time that anything did
-  double reported_ms_ = 0, begun_ms_ = 0, pictured_ms_ = 0;
+  double reported_ms_ = 0;
 };
 
 }  // namespace

@@ -42,8 +42,8 @@ Result<std::unique_ptr<Window>> Window::open(app::Size size, const std::string& 
   made->window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (!made->window_) return noWindow("OpenGL 4.5 is needed");
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-  made->hidden_ = glfwCreateWindow(1, 1, "", nullptr, made->window_);
-  if (!made->hidden_) return noWindow("a second context is needed");
+  for (auto& hidden : made->hidden_)
+    if (!(hidden = glfwCreateWindow(1, 1, "", nullptr, made->window_))) return noWindow("more than one context is needed");
   glfwMakeContextCurrent(made->window_);
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(made->window_, made.get());
@@ -58,7 +58,8 @@ Result<std::unique_ptr<Window>> Window::open(app::Size size, const std::string& 
 }
 
 Window::~Window() {
-  if (hidden_) glfwDestroyWindow(hidden_);
+  for (GLFWwindow* hidden : hidden_)
+    if (hidden) glfwDestroyWindow(hidden);
   if (window_) glfwDestroyWindow(window_);
   glfwTerminate();
 }

@@ -1,5 +1,6 @@
 #pragma once
 // A window of the desktop with an OpenGL 4.5 core context (GLFW), and what happened to it since one last looked.
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -43,11 +44,12 @@ class Window {
   void captureMouse(bool captured);
   bool mouseCaptured() const { return captured_; }
   GLFWwindow* handle() const { return window_; }
-  GLFWwindow* hidden() const { return hidden_; }  // never shown: a context that shares this one's objects, for another thread
+  GLFWwindow* hidden(int i) const { return hidden_[std::size_t(i)]; }  // 0, 1: never shown: contexts that share this one's objects, for other threads
 
  private:
   Window() = default;
-  GLFWwindow *window_ = nullptr, *hidden_ = nullptr;
+  GLFWwindow* window_ = nullptr;
+  std::array<GLFWwindow*, 2> hidden_{};
   Events events_;
   bool captured_ = false;
   int place_[4] = {};  // before full screen: x, y, width, height

@@ -6,7 +6,6 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,18 +19,17 @@ using Defines = std::vector<std::pair<std::string, std::string>>;
 // The source with includes resolved, without #version. `#include NAME` takes the path from the define NAME.
 Result<std::string> loadShaderSource(const std::string& path, const Defines& defines = {});
 
-// Programs nobody uses, kept for whoever asks for the same next: contexts that share objects compile them once each, and none is ever deleted
-// by one context while another has it bound (Mesa 22.3 then forgets the bound one, and the next dispatch is a crash). Any thread.
+// Programs nobody uses, kept for whoever asks for the same next: software GL compiles them anew for each. Of one context: a program
+// deleted in one context while another has it bound is a crash at the next dispatch (Mesa 22.3).
 class ProgramPool {
  public:
   GLuint take(const std::string& key);  // 0: there is none
   void give(const std::string& key, GLuint id);
 
  private:
-  std::mutex mutex_;
   std::multimap<std::string, GLuint> free_;
 };
-// From now on this thread's programs come from there and go back there; all threads of a pool have contexts that share objects.
+// From now on this thread's programs come from there and go back there. None: they are made and deleted.
 void usePool(std::shared_ptr<ProgramPool> pool);
 
 class Program {
