@@ -19,10 +19,10 @@ import time
 
 from window_driver import Screen, Window, missing, write_png
 
-PANELS = ["Camera", "Scene", "Quality", "Exposure", "Time", "Profiler", "Memory", "Left out", "Log"]
+PANELS = ["Camera", "Scene", "Quality", "Exposure", "Time", "Profiler", "Memory", "Left out", "Log", "Debug"]
 SMALL = ["--budget", "128MiB", "--depth", "11"]  # a tree that a slow machine has soon
 KEYS = ["w", "a", "s", "d", "q", "e", "space", "z", "x", "h", "m", "r", "Tab", "Home", "Escape", "Left", "Up", "F12", "ctrl+z", "ctrl+shift+z",
-        "1", "2", "3", "4", "5", "6", "7", "8", "9"]
+        "1", "2", "3", "4", "5", "6", "7", "8", "9", "0"]
 
 
 class Check:
@@ -100,22 +100,26 @@ def fly(c):
     c.end(w, "fly")
 
 
+def key_of(panel):
+    return str((PANELS.index(panel) + 1) % 10)
+
+
 def panels(c):
     w = c.window(*SMALL)
     w.wait_for(lambda s: s["pictures"] > 20, 30)
-    for i, name in enumerate(PANELS):
+    for name in PANELS:
         for open_panel in (w.fresh() or {}).get("panels", []):
-            w.key(str(PANELS.index(open_panel) + 1))
+            w.key(key_of(open_panel))
         w.wait_for(lambda s: not s["panels"], 10)
         time.sleep(0.5)
         before = w.capture()
-        w.key(str(i + 1))
+        w.key(key_of(name))
         state = w.wait_for(lambda s, name=name: s["panels"] == [name], 20)
         time.sleep(0.7)
         after = w.capture(os.path.join(c.out, f"panel-{name.lower().replace(' ', '-')}.png"))
         share = differs(before[:, 910:], after[:, 910:])
         c.line(f"panel {name}", share, "opens, over 0.3 % of the bar changes", state is not None and share > 0.003)
-    w.key("9", "h")
+    w.key(key_of(PANELS[-1]), "h")
     c.line("H shows the keys", w.wait_for(lambda s: s["help"], 10) is not None, "shown", w.state()["help"])
     time.sleep(0.5)
     w.capture(os.path.join(c.out, "keys.png"))
@@ -198,6 +202,45 @@ def changes(c):
            state["worst_frame_ms"] <= most)
     print("      " + ", ".join(f"{k} {v:.1f}" for k, v in state["worst_frame"].items()))
     c.end(w, "changes")
+
+
+DEBUG_VIEWS = {"steps": "steps", "level of detail": "detail", "occupancy": "occupancy", "history": "history", "density": "density",
+               "light": "light", "air only": "air", "NaN": "nan"}
+
+
+def debug(c):
+    """Each view of the debug panel is chosen with the mouse; then the picture again."""
+    w = c.window(*SMALL)
+    w.wait_for(lambda s: s["settled"] and s["pictures"] > 20, 60)
+    w.key(key_of("Camera"), key_of("Debug"))
+    w.wait_for(lambda s: s["panels"] == ["Debug"] and "steps" in s["fields"], 20)
+
+    def choose(label, view):
+        for _ in range(5):  # frames of a busy machine may miss a short press
+            x0, y0, x1, y1 = (w.fresh() or w.state())["fields"][label]
+            w.click(x0 + (y1 - y0) / 2, (y0 + y1) / 2)
+            if w.wait_for(lambda s: s["debug"]["view"] == view, 5):
+                return w.fresh()
+        return w.state()
+
+    w.move(300, 300)
+    time.sleep(1)
+    picture = w.capture()[:700, :880]
+    for label, view in DEBUG_VIEWS.items():
+        state = choose(label, view)
+        w.move(300, 300)
+        time.sleep(0.7)
+        share = differs(picture, w.capture(os.path.join(c.out, f"debug-{view}.png"))[:700, :880])
+        n = state["debug"]
+        c.line(f"debug view {view}: share of the picture that it changes", share, "over 0.01", n["view"] == view and share > 0.01)
+        c.line(f"debug view {view}: values", f"{n['minimum']:.3g} to {n['maximum']:.3g}" if n["view"] == view else "none", "of some pixels at least",
+               n["view"] == view and n["pixels"] > 0 and n["not_a_number"] == 0)
+    choose("picture", "none")
+    w.move(300, 300)
+    time.sleep(1)
+    share = differs(picture, w.capture()[:700, :880])
+    c.line("the picture again: share that differs", share, "below 0.01", share < 0.01)
+    c.end(w, "debug")
 
 
 def same_view(a, b):
@@ -389,7 +432,7 @@ def monkey(c):
     c.end(w, "monkey")
 
 
-GROUPS = {f.__name__: f for f in (start, fly, panels, changes, drops, resizes, closes, refuses, records, converged, monkey)}
+GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, drops, resizes, closes, refuses, records, converged, monkey)}
 
 
 def main():

@@ -58,7 +58,7 @@ const std::array<KeyLine, 19> kKeyLines{{{"W A S D", "forward, left, back, right
                                          {"M", "look with the mouse alone, on and off"},
                                          {"Home", "back to where it began"},
                                          {"Tab", "panels on and off"},
-                                         {"1 to 9", "open or close a panel"},
+                                         {"1 to 9, 0", "open or close a panel"},
                                          {"F11", "full screen on and off"},
                                          {"R", "record the flight; again: stop and save it"},
                                          {"Ctrl Z, Ctrl Shift Z", "undo, redo"},
@@ -106,8 +106,8 @@ void Controls::fly(Model& model, Window& window, const Events& events, bool mous
 
 void Controls::press(Model& model, Window& window, Press press) {
   const int key = press.key;
-  if (key >= GLFW_KEY_1 && key <= GLFW_KEY_9) {
-    const auto panel = std::size_t(key - GLFW_KEY_1);
+  if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) {
+    const auto panel = std::size_t(key - GLFW_KEY_0 + 9) % 10;
     model.open[panel] = !model.open[panel] || !model.sidebar;
     if (model.open[panel]) model.sidebar = true, model.showNow = Panel(panel);
   }

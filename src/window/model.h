@@ -18,9 +18,9 @@
 
 namespace welkin::window {
 
-enum class Panel { Camera, Scene, Quality, Exposure, Time, Profiler, Memory, LeftOut, Log };
-inline constexpr std::array<const char*, 9> kPanelNames{"Camera",   "Scene",  "Quality",  "Exposure", "Time",
-                                                        "Profiler", "Memory", "Left out", "Log"};
+enum class Panel { Camera, Scene, Quality, Exposure, Time, Profiler, Memory, LeftOut, Log, Debug };
+inline constexpr std::array<const char*, 10> kPanelNames{"Camera",   "Scene",  "Quality",  "Exposure", "Time",
+                                                        "Profiler", "Memory", "Left out", "Log",   "Debug"};
 
 struct Wanted {                                     // since the last frame
   bool march = false, air = false, output = false;  // what the renderer changes at once
@@ -38,6 +38,7 @@ struct Model {
   double time_s = 0, timeSpeed = 1;
   bool playing = false;
   bool reprojection = true;
+  DebugView debug = DebugView::None;
 
   app::Settings settings;
   bool settingsChanged = false;

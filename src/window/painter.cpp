@@ -56,6 +56,7 @@ void Painter::make(const Scene& scene, const RenderSettings& settings, const Vie
     if (made) {
       renderer_ = std::move(*made);
       size_ = {settings.width, settings.height};
+      debug_ = DebugView::None;
       for (int i = 0; i < kFirstFrames && wanted(); ++i) renderer_->frame(view, FrameMode::Reprojected, 0);
     }
     const std::lock_guard lock(mutex_);
@@ -111,6 +112,7 @@ Painted Painter::paint(const Order& order) {
   if (order.march) tried(renderer_->setMarch(*order.march));
   if (order.output) tried(renderer_->setOutput(*order.output));
   if (order.air) painted.airRefused = !renderer_->setAir(*order.air, Renderer::AirChange::Recompute);
+  if (order.debug != debug_) tried(renderer_->setDebugView(debug_ = order.debug));
   renderer_->setBricksPerFrame(order.bricksPerFrame);
   painted.stats = renderer_->frame(order.view, order.mode, order.sinceLast_s);
   const gpu::Texture& shown = renderer_->shown();
@@ -126,6 +128,7 @@ Painted Painter::paint(const Order& order) {
   if (order.keep)
     painted.kept = {renderer_->image(),
                     app::stateOf(*renderer_, order.view, painted.stats.exposure_ev, painted.size, order.time_s, false, {})};
+  if (renderer_->debugView() != DebugView::None) painted.debug = debugNumbers(debug_, renderer_->debugValues());
   painted.shownDetail = renderer_->shownDetail(order.view);
   painted.plan = renderer_->plan();
   painted.memory = renderer_->memory().byName();

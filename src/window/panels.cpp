@@ -13,7 +13,7 @@ namespace welkin::window {
 namespace {
 
 constexpr std::array<void (*)(Model&), kPanelNames.size()> kPanels{cameraPanel,   scenePanel,  qualityPanel, exposurePanel, timePanel,
-                                                                   profilerPanel, memoryPanel, leftOutPanel, logPanel};
+                                                                   profilerPanel, memoryPanel, leftOutPanel, logPanel,   debugPanel};
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
@@ -28,7 +28,7 @@ void sidebar(Model& model) {
     ImGui::PushItemWidth(-ImGui::GetFontSize() * 9);
     for (std::size_t i = 0; i < kPanels.size(); ++i) {
       ImGui::SetNextItemOpen(model.open[i]);
-      const std::string title = fmt::format("{}  {}", i + 1, kPanelNames[i]);
+      const std::string title = fmt::format("{}  {}", (i + 1) % 10, kPanelNames[i]);
       model.open[i] = ImGui::CollapsingHeader(title.c_str());
       if (model.showNow == Panel(i)) ImGui::SetScrollHereY(0), model.showNow.reset();
       if (!model.open[i]) continue;

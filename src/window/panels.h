@@ -15,5 +15,6 @@ void profilerPanel(Model& model);
 void memoryPanel(Model& model);
 void leftOutPanel(Model& model);
 void logPanel(Model& model);
+void debugPanel(Model& model);
 
 }  // namespace welkin::window

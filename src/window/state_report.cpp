@@ -7,6 +7,18 @@
 
 namespace welkin::window {
 
+namespace {
+
+// Of the picture that is shown, not of the one that was chosen last.
+nlohmann::ordered_json debugJson(const Model& m) {
+  if (!m.painted || !m.painted->debug) return {{"view", "none"}};
+  const DebugNumbers& n = *m.painted->debug;
+  return {{"view", kDebugViewNames[std::size_t(n.view)]}, {"pixels", n.pixels}, {"without", n.without}, {"not_a_number", n.nan},
+          {"minimum", n.minimum}, {"mean", n.mean}, {"maximum", n.maximum}, {"kinds", n.kinds}};
+}
+
+}  // namespace
+
 std::string stateJson(const Model& m, const Counts& c) {
   using Json = nlohmann::ordered_json;
   Json open = Json::array();
@@ -37,6 +49,7 @@ std::string stateJson(const Model& m, const Counts& c) {
                      {"step_rule", kStepRuleNames[std::size_t(m.scene.quality.stepRule)]},
                      {"skip_empty", m.scene.quality.skipEmpty},
                      {"budget_bytes", m.scene.quality.budget_bytes}}},
+                   {"debug", debugJson(m)},
                    {"message", m.message},
                    {"frame_rate", m.frameRate},
                    {"frame_ms", m.times.frame().median()},

@@ -248,6 +248,7 @@ class Viewer {
       order_.size = {std::max(size.width, 16), std::max(size.height, 16)};
       order_.view = model_.view();
       order_.mode = model_.reprojection ? FrameMode::Reprojected : FrameMode::Full;
+      order_.debug = model_.debug;
       order_.time_s = model_.time_s;
       order_.bricksPerFrame = pace_.perFrame();
       order_.keep = keep_;

@@ -54,6 +54,7 @@ DebugNumbers debugNumbers(DebugView view, const std::vector<float>& values) {
 }
 
 std::string debugValueText(const DebugTopic& topic, double value) {
+  if (topic.kinds) return fmt::format("{:.3g}", value);
   return *topic.unit ? fmt::format("{:.3g} {}", value, topic.unit) : fmt::format("{:.3g} %", 100 * value);
 }
 
@@ -61,7 +62,7 @@ std::string debugText(const DebugNumbers& n) {
   const DebugTopic& topic = debugTopic(n.view);
   std::string out;
   if (n.view != DebugView::History && n.view != DebugView::Nan && n.pixels)
-    out = fmt::format("{:.3g} to {}, mean {:.3g}", *topic.unit ? n.minimum : 100 * n.minimum, debugValueText(topic, n.maximum), *topic.unit ? n.mean : 100 * n.mean);
+    out = fmt::format("{} to {}, mean {}", debugValueText(topic, n.minimum), debugValueText(topic, n.maximum), debugValueText(topic, n.mean));
   for (unsigned i = 0; i < topic.kinds && n.view != DebugView::Detail; ++i)
     out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", debugKindName(n.view, i), n.kinds[i]);
   if (n.without) out += fmt::format("{}{} pixels without", out.empty() ? "" : ", ", n.without);
