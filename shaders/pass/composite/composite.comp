@@ -92,7 +92,7 @@ void main() {
 #if OPT_DISPLAY
   vec3 shown = displayValues(TONE_CURVE(toneInput(light, u_exposure)), uint(pixel.x), uint(pixel.y));
 #endif
-  bool broken = any(isnan(light)) || any(isinf(light)) || isnan(cloud.a);
+  bool broken = any(isnan(light)) || any(isinf(light)) || isnan(cloud.a) || isnan(aux.x);
 #ifdef DEBUG_VIEW  // beside the picture, which has counted
 #if DEBUG_VIEW == WK_DEBUG_NAN
   bool negative = any(lessThan(light, vec3(0.0)));
