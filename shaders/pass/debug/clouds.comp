@@ -15,6 +15,8 @@ layout(r32f, binding = 0) uniform writeonly image2D u_value;
 layout(rgba8, binding = 1) uniform writeonly image2D u_picture;
 uniform ivec2 u_size;
 
+const float kLeastSeen = 1e-4;  // opacity; of less, one minus the transmittance is too little of a float to divide by
+
 float lightSeen(CloudRay cloud, Ray view) {
   if (tree.sunDir.w <= 0.0) return kDebugNone;
   float opacity = 1.0 - cloud.transmittance, light = cloud.sun, seen = opacity;
@@ -24,7 +26,7 @@ float lightSeen(CloudRay cloud, Ray view) {
     seen = 1.0;
   }
 #endif
-  return seen > 0.0 ? light / seen : kDebugNone;
+  return seen > kLeastSeen ? light / seen : kDebugNone;
 }
 
 void main() {

@@ -57,10 +57,11 @@ WK_FN vec3 scaleColour(float x) {
   return oklabColour(F(0.27) + F(0.65) * t, a, b);
 }
 
-// Levels of the octree: neighbours are 150 degrees of hue apart; the thirteenth has the first one's hue, darker.
+// Levels of the octree: neighbours are 150 degrees of hue apart, and hues come again after twelve. Bright are those of a planet's clouds
+// from orbit to the ground.
 WK_FN vec3 levelColour(uint level) {
   float hue = float(level * 5u % 12u) * (kPi / F(6.0)) + F(0.4);
-  return level < 12u ? oklabColour(F(0.76), F(0.115) * cos(hue), F(0.115) * sin(hue)) : oklabColour(F(0.52), F(0.10) * cos(hue), F(0.10) * sin(hue));
+  return level >= 8u && level < 20u ? oklabColour(F(0.76), F(0.115) * cos(hue), F(0.115) * sin(hue)) : oklabColour(F(0.52), F(0.10) * cos(hue), F(0.10) * sin(hue));
 }
 
 WK_FN vec3 historyColour(uint kind) {
