@@ -61,7 +61,7 @@ def legend(axes, shown):
         s = shown["scale"]
         norm = (LogNorm if s["logarithmic"] else Normalize)(s["low"], s["high"])
         colours = LinearSegmentedColormap.from_list("welkin", s["colours"])
-        bar = plt.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=axes.inset_axes([0.03, 0.55, 0.94, 0.35]), orientation="horizontal")
+        bar = plt.colorbar(matplotlib.cm.ScalarMappable(norm, colours), cax=axes.inset_axes([0.03, 0.65, 0.94, 0.35]), orientation="horizontal")
         if s["logarithmic"] and s["high"] <= 1000 * s["low"]:
             ticks = [s["low"] * 4**i for i in range(5)]
             bar.set_ticks(ticks, labels=[f"{t:g}" for t in ticks])
@@ -76,14 +76,14 @@ def legend(axes, shown):
     if shown["view"] == "nan":
         kinds = [("not a number or negative: none here", "#ff00ff")]
     elif shown["without"]:
-        kinds.append(("without", shown["colour_without"]))
+        kinds.append(("none on the ray", shown["colour_without"]))
     if kinds:
-        axes.legend(handles=[Patch(color=colour, label=name) for name, colour in kinds], loc="upper left", bbox_to_anchor=(0, 1.05),
-                    ncol=min(4, (len(kinds) + 1) // 2), fontsize=8, frameon=False, handlelength=1, columnspacing=1.2)
+        axes.legend(handles=[Patch(color=colour, label=name) for name, colour in kinds], loc="upper left", bbox_to_anchor=(0, 1.2),
+                    ncol=max(3, (len(kinds) + 1) // 2), fontsize=8, frameon=False, handlelength=1, columnspacing=1.2)
 
 
 def figure(folder, output):
-    plot, grid = plt.subplots(6, 3, figsize=(15, 10.6), height_ratios=[1, 0.17] * 3)
+    plot, grid = plt.subplots(6, 3, figsize=(15, 11.2), height_ratios=[1, 0.2] * 3)
     for i, (view, title) in enumerate(TITLES.items()):
         axes, below = grid[i // 3 * 2][i % 3], grid[i // 3 * 2 + 1][i % 3]
         axes.imshow(matplotlib.image.imread(os.path.join(folder, f"{view}.png")), interpolation="none")

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "welkin/window/game_pad.h"
+
 namespace welkin::window {
 namespace {
 
@@ -31,17 +33,18 @@ glm::dvec3 pointed(const Model& model, GLFWwindow* w, glm::dvec2 at_px) {
 
 void gamePad(app::FlyInput& in, double dt_s) {
   GLFWgamepadstate pad;
-  if (!glfwJoystickIsGamepad(GLFW_JOYSTICK_1) || !glfwGetGamepadState(GLFW_JOYSTICK_1, &pad)) return;
-  const auto stick = [&](int which) {
-    const double v = double(pad.axes[which]);
-    return std::abs(v) < 0.15 ? 0.0 : v;  // sticks at rest are not quite at 0
-  };
-  in.move += glm::dvec3(stick(GLFW_GAMEPAD_AXIS_LEFT_X),
-                        (pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] - pad.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER]) / 2.0,
-                        stick(GLFW_GAMEPAD_AXIS_LEFT_Y));
-  in.turn_rad += glm::dvec2(stick(GLFW_GAMEPAD_AXIS_RIGHT_X), -stick(GLFW_GAMEPAD_AXIS_RIGHT_Y)) * (kTurnRate_rad_s * dt_s);
-  in.roll += double(pad.buttons[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER]) - double(pad.buttons[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER]);
-  in.fast = in.fast || pad.buttons[GLFW_GAMEPAD_BUTTON_A];
+  int found = GLFW_JOYSTICK_1;  // the first that is one
+  while (found <= GLFW_JOYSTICK_LAST && !glfwGetGamepadState(found, &pad)) ++found;
+  if (found > GLFW_JOYSTICK_LAST) return;
+  const auto axis = [&pad](int which) { return double(pad.axes[which]); };
+  addPad({.left = {axis(GLFW_GAMEPAD_AXIS_LEFT_X), axis(GLFW_GAMEPAD_AXIS_LEFT_Y)},
+          .right = {axis(GLFW_GAMEPAD_AXIS_RIGHT_X), axis(GLFW_GAMEPAD_AXIS_RIGHT_Y)},
+          .leftTrigger = axis(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER),
+          .rightTrigger = axis(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER),
+          .leftShoulder = pad.buttons[GLFW_GAMEPAD_BUTTON_LEFT_BUMPER] == GLFW_PRESS,
+          .rightShoulder = pad.buttons[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] == GLFW_PRESS,
+          .fast = pad.buttons[GLFW_GAMEPAD_BUTTON_A] == GLFW_PRESS},
+         dt_s, in);
 }
 
 }  // namespace

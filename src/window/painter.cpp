@@ -57,7 +57,8 @@ void Painter::make(const Scene& scene, const RenderSettings& settings, const Vie
       renderer_ = std::move(*made);
       size_ = {settings.width, settings.height};
       debug_ = DebugView::None;
-      for (int i = 0; i < kFirstFrames && wanted(); ++i) renderer_->frame(view, FrameMode::Reprojected, 0);
+      for (int i = 0; i < kFirstFrames && wanted(); ++i)  // the last one whole: pixels of eight trees side by side show as dots
+        renderer_->frame(view, i + 1 < kFirstFrames ? FrameMode::Reprojected : FrameMode::Full, 0);
     }
     const std::lock_guard lock(mutex_);
     if (wanted_ != number) return;
@@ -87,13 +88,17 @@ void Painter::draw(Order order) {
     const std::lock_guard lock(mutex_);
     done_.emplace(std::move(painted));
     painted_.notify_one();
+    if (std::exchange(late_, false)) glfwPostEmptyEvent();
   });
 }
 
 std::optional<Painted> Painter::take(double most_ms) {
   std::unique_lock lock(mutex_);
-  if (!drawing_ || !painted_.wait_for(lock, std::chrono::duration<double, std::milli>(most_ms), [this] { return done_.has_value(); }))
+  if (!drawing_) return {};
+  if (!painted_.wait_for(lock, std::chrono::duration<double, std::milli>(most_ms), [this] { return done_.has_value(); })) {
+    late_ = true;
     return {};
+  }
   drawing_ = false;
   return std::exchange(done_, std::nullopt);
 }

@@ -71,7 +71,8 @@ class Painter {
 
   void draw(Order order);  // one at a time
   bool drawing() const { return drawing_; }
-  std::optional<Painted> take(double most_ms);  // what draw() asked for; waits for it for so long at most
+  // What draw() asked for; waits for it for so long at most. If it comes later, it wakes Window::poll.
+  std::optional<Painted> take(double most_ms);
   std::uint64_t glMessages() const { return glMessages_; }
 
  private:
@@ -87,6 +88,7 @@ class Painter {
   std::optional<Painted> done_;
   std::optional<Result<void>> made_;
   std::uint64_t wanted_ = 0;  // number of the newest make()
+  bool late_ = false;         // the window looked for a picture that was not there yet
 
   bool drawing_ = false;  // the window's
 

@@ -86,7 +86,7 @@ void debugPanel(Model& model) {
   for (unsigned i = 0; i < topic.kinds; ++i)
     if (n.kinds[i] > 0 || model.debug != DebugView::Detail)
       swatch(shared::debugColour(unsigned(model.debug), float(i)), debugKindName(model.debug, i), n.kinds[i], all);
-  if (n.without > 0) swatch(shared::kDebugNoneColour, "without", n.without, all);
+  if (n.without > 0) swatch(shared::kDebugNoneColour, "none on the ray", n.without, all);
   if (n.nan > 0) swatch(shared::kNanPaint, "not a number", n.nan, all);
   if (n.pixels == 0 || (topic.kinds > 0 && model.debug != DebugView::Detail)) return;
   line("least", debugValueText(topic, n.minimum));

@@ -59,6 +59,7 @@ std::string stateJson(const Model& m, const Counts& c) {
                    {"first_picture_s", c.firstPicture_s},
                    {"worst_frame_ms", c.worstFrame_ms},
                    {"worst_frame", c.worst_ms},
+                   {"latency_frames", c.latency},
                    {"resizes", c.resizes},
                    {"made", c.made},
                    {"nan_pixels", c.nanPixels},

@@ -23,7 +23,7 @@
 namespace welkin::window {
 namespace {
 
-constexpr double kIdleWait_s = 0.03, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
+constexpr double kIdleWait_s = 0.03, kLate_s = 0.1, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
 constexpr double kMostWait_ms = 33;        // for a picture; one that takes longer is shown in a later frame, and the interface goes on
 constexpr std::uint64_t kFirstFrames = 8;  // not among the slowest: the interface's shaders are compiled for them
 constexpr double kSpareDetail = 1.4;       // for the next step of a flight
@@ -51,7 +51,7 @@ class Viewer {
   void run() {
     double last_ms = gpu::wall_ms();
     while (!window_.closing() && !app::stopRequested()) {
-      const Events events = window_.poll(idle_ ? kIdleWait_s : 0);
+      const Events events = window_.poll(idle_ ? kIdleWait_s : painter().drawing() ? kLate_s : 0);
       const double now_ms = gpu::wall_ms(), dt_s = std::min((now_ms - last_ms) / 1000, kMostStep_s);
       last_ms = now_ms;
       frame(events, now_ms, dt_s);
@@ -101,7 +101,7 @@ class Viewer {
     const std::optional<double> picture_ms = draw(dt_s);
     const double pictured_ms = gpu::wall_ms();
     if (model_.painted && model_.painted->canvas)
-      presenter_.show(*model_.painted->canvas, model_.window);
+      presenter_.show(*model_.painted->canvas, model_.window, model_.painted->debug ? GL_NEAREST : GL_LINEAR);  // no colour between two kinds
     else
       presenter_.clear(model_.window);
     if (model_.software) glFinish();  // so that the profiler tells the parts apart
@@ -253,6 +253,7 @@ class Viewer {
       order_.bricksPerFrame = pace_.perFrame();
       order_.keep = keep_;
       painter().draw(std::exchange(order_, {}));
+      ordered_ = counts_.frames;
     }
     auto painted = painter().take(kMostWait_ms);
     if (!painted || !painted->canvas) return {};  // before the first renderer is there, an empty one
@@ -265,6 +266,7 @@ class Viewer {
     airRefused_ = painted->airRefused;
     if (painted->kept) keep_ = false, shots_.takeAsSeen(std::move(painted->kept->image), std::move(painted->kept->state));
     ++counts_.pictures;
+    ++counts_.latency[std::min<std::size_t>(counts_.frames - ordered_, counts_.latency.size() - 1)];
     counts_.nanPixels += model_.stats.counters.nanPixels;
     if (model_.stats.sampleDetail >= 1) counts_.holes += model_.stats.counters.holes;  // before, the tree promises nothing
     model_.painted = std::move(*painted);
@@ -303,6 +305,7 @@ class Viewer {
   } later_;                                                                  // changed while a renderer is made
   bool loading_ = false, airRefused_ = false, keep_ = false, told_ = false;  // keep: a picture is to be written; told: the renderer's notes
   double makeBegun_ms_ = 0;
+  std::uint64_t ordered_ = 0;  // the frame in which the last picture was ordered
   bool idle_ = false;
   View last_;
   double moved_ms_ = 0;  // the last time that anything did

@@ -57,7 +57,7 @@ void fill(ivec2 pixel) {
     vec4 change = textureLod(u_change, (vec2(pixel - u_offset) * 0.25 + 0.5) / vec2(textureSize(u_change, 0)), 0.0);
     vec4 changed = vec4(max(light.rgb + change.rgb, vec3(0.0)), clamp(light.a + change.a, 0.0, 1.0));
     vec2 difference = abs(asSeen(changed, 1.0) - asSeen(light, 1.0));
-    if (moving && max(difference.x, difference.y) > kGreatChange) valid = false;  // at rest the next frames will do
+    if (max(difference.x, difference.y) > kGreatChange) valid = false;
     light = changed;
   }
   uint age = texelFetch(u_oldAge, ivec2(h.at), 0).x + 1u;
