@@ -238,13 +238,16 @@ def debug(c):
         share = differs(picture, w.capture(os.path.join(c.out, f"debug-{view}.png"))[:700, :880])
         n = state["debug"]
         c.line(f"debug view {view}: share of the picture that it changes", share, "over 0.01", n["view"] == view and share > 0.01)
-        c.line(f"debug view {view}: values", f"{n['minimum']:.3g} to {n['maximum']:.3g}" if n["view"] == view else "none", "of some pixels at least",
-               n["view"] == view and n["pixels"] > 0 and n["not_a_number"] == 0)
+        reach = f"{n['minimum']:.3g} to {n['maximum']:.3g}" if n["view"] == view else "none"
+        c.line(f"debug view {view}: values", reach, "of some pixels at least", n["view"] == view and n["pixels"] > 0 and n["not_a_number"] == 0)
     choose("picture", "none")
     w.move(300, 300)
     time.sleep(1)
     share = differs(picture, w.capture()[:700, :880])
     c.line("the picture again: share that differs", share, "below 0.01", share < 0.01)
+    state, most = w.fresh(), 400 if c.quick else 100
+    c.line("longest frame while views are chosen, ms", state["worst_frame_ms"], f"at most {most}", state["worst_frame_ms"] <= most)
+    print("      " + ", ".join(f"{k} {v:.1f}" for k, v in state["worst_frame"].items()))
     c.end(w, "debug")
 
 

@@ -20,8 +20,9 @@ from matplotlib.colors import LinearSegmentedColormap, LogNorm, Normalize
 from matplotlib.patches import Patch
 
 SCENE, VIEW, SIZE = os.path.join(REPOSITORY, "scenes", "earth.json"), "layers", "480x270"
-TITLES = {"none": "the picture", "steps": "steps: samples of a ray", "detail": "detail: level of the octree", "occupancy": "occupancy: share of the way in cloud",
-          "history": "history: in flight, 50 m a frame", "density": "density: greatest extinction, 1/m", "light": "light: share of the sun's that arrives",
+TITLES = {"none": "the picture", "steps": "steps: samples of a ray", "detail": "detail: level of the octree",
+          "occupancy": "occupancy: share of the way in cloud", "history": "history: in flight, 50 m a frame",
+          "density": "density: greatest extinction, 1/m", "light": "light: share of the sun's that arrives",
           "air": "air: without clouds", "nan": "nan: pixels not a number or negative"}
 FRAMES, STEP_M = 12, 50.0
 
@@ -36,10 +37,11 @@ def write_path(path):
     frames = []
     for i in range(FRAMES):
         here, _ = travel(up, way, (i - FRAMES + 1) * STEP_M / RADIUS_M)
-        frames.append({"position_m": combine(RADIUS_M + v["altitude_m"], here, 0, here), "orientation_xyzw": orientation_xyzw(up, ahead, v["pitch_deg"]),
-                       "fov_deg": v["fov_deg"], "time_s": i / 30})
+        frames.append({"position_m": combine(RADIUS_M + v["altitude_m"], here, 0, here),
+                       "orientation_xyzw": orientation_xyzw(up, ahead, v["pitch_deg"]), "fov_deg": v["fov_deg"], "time_s": i / 30})
     with open(path, "w", encoding="utf-8") as f:
-        json.dump({"scene": os.path.relpath(SCENE, os.path.dirname(path)), "size": [480, 270], "time_step_s": 1 / 30, "warm_up": 20, "frames": frames}, f)
+        json.dump({"scene": os.path.relpath(SCENE, os.path.dirname(path)), "size": [480, 270], "time_step_s": 1 / 30, "warm_up": 20,
+                   "frames": frames}, f)
 
 
 def draw(welkin, folder):
@@ -53,7 +55,8 @@ def draw(welkin, folder):
                            check=True, stdout=subprocess.DEVNULL)
             os.replace(os.path.join(folder, f"frame-{FRAMES - 1:05d}.png"), picture)
         else:
-            subprocess.run([welkin, "render", SCENE, "--view", VIEW, "--size", SIZE, "--debug", view, "-o", picture, "--json", report, "--quiet"], check=True)
+            subprocess.run([welkin, "render", SCENE, "--view", VIEW, "--size", SIZE, "--debug", view, "-o", picture, "--json", report, "--quiet"],
+                           check=True)
 
 
 def legend(axes, shown):

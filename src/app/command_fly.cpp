@@ -27,8 +27,8 @@ void addFly(CLI::App& app, Action& action, const std::string& commandLine) {
           "--pace", [o](const std::string& pace) { o->waitForEdits = pace == "fixed"; },
           "fixed: the same pictures on every run; wall: never wait for the worker")
       ->check(CLI::IsMember({"fixed", "wall"}));
-  addParsed<DebugView>(*command, "--debug", "pictures in false colours: " + namesText(kDebugViewNames), parseName<DebugView>(kDebugViewNames),
-                       [o](DebugView v) { o->debug = v; })
+  addParsed<DebugView>(*command, "--debug", "pictures in false colours: " + namesText(kDebugViewNames),
+                       parseName<DebugView>(kDebugViewNames), [o](DebugView v) { o->debug = v; })
       ->excludes("--quality-frames")
       ->excludes("--pop");
   addQualityOptions(*command, o->common);

@@ -128,6 +128,7 @@ Result<void> runRender(const RenderOptions& o) {
       report.tolerance.push_back({0, kept->choice, kept->reached_255});
     }
     report.debug = debug;
+    if (auto off = stage->renderer->setDebugView(DebugView::None); !off) return off;  // times are those of the picture
     report.time_ms = medianTime_ms(*stage->renderer, start->view);
     report.total_s = seconds;
     if (auto written = writeFile(o.common.json, report.json() + "\n"); !written) return written;

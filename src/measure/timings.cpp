@@ -195,15 +195,25 @@ std::string hexText(glm::vec3 colour) {
 Json debugJson(const DebugNumbers& n) {
   constexpr int kColours = 33;
   const DebugTopic& topic = debugTopic(n.view);
-  Json out{{"view", kDebugViewNames[std::size_t(n.view)]}, {"what", topic.what}, {"unit", topic.unit}, {"pixels", n.pixels}, {"without", n.without},
-           {"not_a_number", n.nan}, {"minimum", n.minimum}, {"mean", n.mean}, {"maximum", n.maximum}, {"colour_without", hexText(shared::kDebugNoneColour)}};
+  Json out{{"view", kDebugViewNames[std::size_t(n.view)]},
+           {"what", topic.what},
+           {"unit", topic.unit},
+           {"pixels", n.pixels},
+           {"without", n.without},
+           {"not_a_number", n.nan},
+           {"minimum", n.minimum},
+           {"mean", n.mean},
+           {"maximum", n.maximum},
+           {"colour_without", hexText(shared::kDebugNoneColour)}};
   if (topic.high > topic.low) {
     out["scale"] = {{"low", topic.low}, {"high", topic.high}, {"logarithmic", topic.logarithmic}};
     for (int i = 0; i < kColours; ++i) out["scale"]["colours"].push_back(hexText(shared::scaleColour(float(i) / (kColours - 1))));
   }
   for (unsigned i = 0; i < topic.kinds; ++i)
     if (n.kinds[i] > 0)
-      out["kinds"].push_back({{"kind", i}, {"name", debugKindName(n.view, i)}, {"pixels", n.kinds[i]},
+      out["kinds"].push_back({{"kind", i},
+                              {"name", debugKindName(n.view, i)},
+                              {"pixels", n.kinds[i]},
                               {"colour", hexText(shared::debugColour(unsigned(n.view), float(i)))}});
   return out;
 }

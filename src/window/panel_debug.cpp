@@ -20,7 +20,8 @@ std::string tickText(const DebugTopic& topic, double value) {
 void scale(const DebugTopic& topic, const DebugNumbers& n) {
   constexpr int kPieces = 128, kTicks = 4;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float letter = ImGui::GetFontSize(), bar = 1.2f * letter, inset = 1.5f * letter, width = ImGui::GetContentRegionAvail().x - 2 * inset;
+  const float letter = ImGui::GetFontSize(), bar = 1.2f * letter, inset = 1.5f * letter,
+              width = ImGui::GetContentRegionAvail().x - 2 * inset;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float left = at.x + inset;
   for (int i = 0; i < kPieces; ++i) {
@@ -38,7 +39,8 @@ void scale(const DebugTopic& topic, const DebugNumbers& n) {
   }
   for (int i = 0; i <= kTicks; ++i) {
     const double share = double(i) / kTicks;
-    const double value = topic.logarithmic ? topic.low * std::pow(topic.high / topic.low, share) : topic.low + (topic.high - topic.low) * share;
+    const double value =
+        topic.logarithmic ? topic.low * std::pow(topic.high / topic.low, share) : topic.low + (topic.high - topic.low) * share;
     const std::string label = tickText(topic, value);
     const float x = left + width * float(share);
     draw.AddLine({x, at.y + bar}, {x, reach + 0.25f * letter}, grey);

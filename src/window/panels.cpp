@@ -13,7 +13,7 @@ namespace welkin::window {
 namespace {
 
 constexpr std::array<void (*)(Model&), kPanelNames.size()> kPanels{cameraPanel,   scenePanel,  qualityPanel, exposurePanel, timePanel,
-                                                                   profilerPanel, memoryPanel, leftOutPanel, logPanel,   debugPanel};
+                                                                   profilerPanel, memoryPanel, leftOutPanel, logPanel,      debugPanel};
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 

@@ -12,7 +12,8 @@ class Presenter {
   ~Presenter() { glDeleteFramebuffers(1, &frame_); }
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
-  void show(Canvas& picture, app::Size window, GLenum between = GL_LINEAR) const;  // stretched; what is between pixels: GL_LINEAR or GL_NEAREST
+  void show(Canvas& picture, app::Size window,
+            GLenum between = GL_LINEAR) const;  // stretched; what is between pixels: GL_LINEAR or GL_NEAREST
   void clear(app::Size window) const;
 
  private:

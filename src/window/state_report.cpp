@@ -13,8 +13,14 @@ namespace {
 nlohmann::ordered_json debugJson(const Model& m) {
   if (!m.painted || !m.painted->debug) return {{"view", "none"}};
   const DebugNumbers& n = *m.painted->debug;
-  return {{"view", kDebugViewNames[std::size_t(n.view)]}, {"pixels", n.pixels}, {"without", n.without}, {"not_a_number", n.nan},
-          {"minimum", n.minimum}, {"mean", n.mean}, {"maximum", n.maximum}, {"kinds", n.kinds}};
+  return {{"view", kDebugViewNames[std::size_t(n.view)]},
+          {"pixels", n.pixels},
+          {"without", n.without},
+          {"not_a_number", n.nan},
+          {"minimum", n.minimum},
+          {"mean", n.mean},
+          {"maximum", n.maximum},
+          {"kinds", n.kinds}};
 }
 
 }  // namespace

@@ -101,7 +101,8 @@ class Viewer {
     const std::optional<double> picture_ms = draw(dt_s);
     const double pictured_ms = gpu::wall_ms();
     if (model_.painted && model_.painted->canvas)
-      presenter_.show(*model_.painted->canvas, model_.window, model_.painted->debug ? GL_NEAREST : GL_LINEAR);  // no colour between two kinds
+      presenter_.show(*model_.painted->canvas, model_.window,
+                      model_.painted->debug ? GL_NEAREST : GL_LINEAR);  // no colour between two kinds
     else
       presenter_.clear(model_.window);
     if (model_.software) glFinish();  // so that the profiler tells the parts apart

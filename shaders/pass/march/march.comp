@@ -93,7 +93,7 @@ void main() {
   if (cloud.transmittance < 1.0) {
     CloudColours colours = coloursAt(position + dvec3(view.dir) * double(cloud.distance_m));
     light = cloud.sun * colours.sun + cloud.sky * colours.sky + cloud.ground * colours.ground;
-    light = mix(min(light, vec3(kBrightest)), light, isnan(light));  // asked for by name: a comparison alone is made min() of, which loses it
+    light = mix(min(light, vec3(kBrightest)), light, isnan(light));  // of a comparison compilers make min(), which loses a NaN
   }
   float shadow = 1.0;
 #if OPT_GROUND

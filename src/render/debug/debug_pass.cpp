@@ -9,10 +9,14 @@ namespace {
 Result<gpu::Program> compile(DebugView view, const CloudPasses* clouds, const CompositePass& composite, const Quality& quality) {
   const gpu::Defines define{{"DEBUG_VIEW", std::to_string(int(view))}};
   switch (view) {
-    case DebugView::Air: return composite.compileAside(false, define);
-    case DebugView::Nan: return composite.compileAside(clouds != nullptr, define);
-    case DebugView::History: return clouds && clouds->hasHistory() ? gpu::Program::compute("pass/debug/history.comp") : gpu::Program{};
-    default: return clouds ? clouds->compileWatched(quality, define) : gpu::Program{};
+    case DebugView::Air:
+      return composite.compileAside(false, define);
+    case DebugView::Nan:
+      return composite.compileAside(clouds != nullptr, define);
+    case DebugView::History:
+      return clouds && clouds->hasHistory() ? gpu::Program::compute("pass/debug/history.comp") : gpu::Program{};
+    default:
+      return clouds ? clouds->compileWatched(quality, define) : gpu::Program{};
   }
 }
 
@@ -32,8 +36,8 @@ Result<DebugPass> DebugPass::create(gpu::MemoryAccount& account, DebugView view,
 Result<void> DebugPass::resize(gpu::MemoryAccount& account, int width, int height) {
   width_ = width, height_ = height;
   for (const auto& [texture, format] : {std::pair{&values_, GL_R32F}, {&picture_, GL_RGBA8}}) {
-    auto made = gpu::Texture::create(account, "debug view",
-                                     {.format = GLenum(format), .width = width, .height = height, .filter = GL_NEAREST, .frameTarget = true});
+    auto made = gpu::Texture::create(
+        account, "debug view", {.format = GLenum(format), .width = width, .height = height, .filter = GL_NEAREST, .frameTarget = true});
     if (!made) return made.error();
     *texture = std::move(*made);
   }

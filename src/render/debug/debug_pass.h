@@ -13,7 +13,8 @@ class DebugPass {
                                   const Quality& quality, int width, int height);
   Result<void> resize(gpu::MemoryAccount& account, int width, int height);
   // After the picture of the same frame, with what that has bound. turn: CloudPasses::turn().
-  void draw(const CloudPasses* clouds, const CompositePass& composite, const shared::CameraBlock& camera, double exposure_ev, glm::ivec2 turn) const;
+  void draw(const CloudPasses* clouds, const CompositePass& composite, const shared::CameraBlock& camera, double exposure_ev,
+            glm::ivec2 turn) const;
   DebugView view() const { return view_; }
   const gpu::Texture& picture() const { return picture_; }  // RGBA8, sRGB values
   std::vector<float> values() const;                        // rows from the top

@@ -27,8 +27,8 @@ const DebugTopic& debugTopic(DebugView view) {
 }
 
 std::string debugKindName(DebugView view, unsigned kind) {
-  constexpr std::array<const char*, shared::kHistoryKinds> history{"marched in its turn", "marched: no valid history", "of 1 to 4 frames before",
-                                                                   "of 5 to 10", "of more"};
+  constexpr std::array<const char*, shared::kHistoryKinds> history{"marched in its turn", "marched: no valid history",
+                                                                   "of 1 to 4 frames before", "of 5 to 10", "of more"};
   constexpr std::array<const char*, 3> nan{"right", "not a number or infinite", "negative"};
   if (view == DebugView::History && kind < history.size()) return history[kind];
   if (view == DebugView::Nan && kind < nan.size()) return nan[kind];
@@ -62,7 +62,8 @@ std::string debugText(const DebugNumbers& n) {
   const DebugTopic& topic = debugTopic(n.view);
   std::string out;
   if (n.view != DebugView::History && n.view != DebugView::Nan && n.pixels)
-    out = fmt::format("{} to {}, mean {}", debugValueText(topic, n.minimum), debugValueText(topic, n.maximum), debugValueText(topic, n.mean));
+    out =
+        fmt::format("{} to {}, mean {}", debugValueText(topic, n.minimum), debugValueText(topic, n.maximum), debugValueText(topic, n.mean));
   for (unsigned i = 0; i < topic.kinds && n.view != DebugView::Detail; ++i)
     out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", debugKindName(n.view, i), n.kinds[i]);
   if (n.without) out += fmt::format("{}{} pixels without", out.empty() ? "" : ", ", n.without);

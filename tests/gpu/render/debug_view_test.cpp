@@ -160,7 +160,9 @@ TEST_F(DebugViews, NanShowsWhatWasPutIn) {
   const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
   std::vector<shared::CloudWeights> clouds(kPixels, {0.1f, 0.1f, 0.1f, 0.5f, 1e4f});
   std::vector<float> expected(kPixels, 0);
-  const auto put = [&](std::size_t pixel, const shared::CloudWeights& weights, float kind) { clouds[pixel] = weights, expected[pixel] = kind; };
+  const auto put = [&](std::size_t pixel, const shared::CloudWeights& weights, float kind) {
+    clouds[pixel] = weights, expected[pixel] = kind;
+  };
   put(0, {nan, 0.1f, 0.1f, 0.5f, 1e4f}, 1);
   put(777, {0.1f, 0.1f, 0.1f, nan, 1e4f}, 1);
   put(4000, {0.1f, 0.1f, 0.1f, 0.5f, nan}, 1);
@@ -172,8 +174,10 @@ TEST_F(DebugViews, NanShowsWhatWasPutIn) {
   const Image8 image = renderer->image();
   for (std::size_t i = 0; i < kPixels; ++i) {
     const std::uint8_t* p = &image.rgba[4 * i];
-    if (expected[i] > 0) ASSERT_TRUE(p[0] == 255 && p[1] == 0 && p[2] == 255) << i;
-    else ASSERT_TRUE(p[0] == p[1] && p[1] == p[2]) << i << " is grey";
+    if (expected[i] > 0)
+      ASSERT_TRUE(p[0] == 255 && p[1] == 0 && p[2] == 255) << i;
+    else
+      ASSERT_TRUE(p[0] == p[1] && p[1] == p[2]) << i << " is grey";
   }
 }
 
@@ -204,7 +208,8 @@ TEST_F(DebugViews, ColoursAreThoseOfTheLegend) {
   const auto renderer = makeRenderer(*context, earth());
   ASSERT_NE(renderer, nullptr);
   renderer->settle(sideways(0, 0));
-  for (const DebugView view : {DebugView::Steps, DebugView::Detail, DebugView::Occupancy, DebugView::History, DebugView::Density, DebugView::Light}) {
+  for (const DebugView view :
+       {DebugView::Steps, DebugView::Detail, DebugView::Occupancy, DebugView::History, DebugView::Density, DebugView::Light}) {
     ASSERT_TRUE(renderer->setDebugView(view).ok());
     ASSERT_TRUE(renderer->resize(view == DebugView::Light ? 64 : 65, 37).ok());
     renderer->frame(sideways(0, 0));

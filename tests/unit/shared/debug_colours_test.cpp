@@ -42,7 +42,8 @@ TEST(DebugColours, LevelsAndKindsAreToldApart) {
   }
   for (uint i = 0; i < kHistoryKinds; ++i) {
     EXPECT_GT(glm::length(cielab(historyColour(i)) - cielab(kDebugNoneColour)), 20);
-    for (uint j = i + 1; j < kHistoryKinds; ++j) EXPECT_GT(glm::length(cielab(historyColour(i)) - cielab(historyColour(j))), 20) << i << " " << j;
+    for (uint j = i + 1; j < kHistoryKinds; ++j)
+      EXPECT_GT(glm::length(cielab(historyColour(i)) - cielab(historyColour(j))), 20) << i << " " << j;
   }
 }
 

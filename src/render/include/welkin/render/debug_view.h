@@ -8,16 +8,16 @@
 namespace welkin {
 
 enum class DebugView { None, Steps, Detail, Occupancy, History, Density, Light, Air, Nan };  // as WK_DEBUG_... in shared/debug.glsl.h
-inline constexpr std::array<const char*, 9> kDebugViewNames{"none",    "steps",   "detail", "occupancy", "history",
+inline constexpr std::array<const char*, 9> kDebugViewNames{"none",    "steps", "detail", "occupancy", "history",
                                                             "density", "light", "air",    "nan"};
 
 // What a view's values are.
 struct DebugTopic {
-  const char* what;           // of a pixel
-  const char* unit;           // empty: a share
-  double low = 0, high = 0;   // ends of the scale; equal: there is none
+  const char* what;          // of a pixel
+  const char* unit;          // empty: a share
+  double low = 0, high = 0;  // ends of the scale; equal: there is none
   bool logarithmic = false;
-  unsigned kinds = 0;         // values are numbers of kinds, 0 to this; 0: they are not
+  unsigned kinds = 0;  // values are numbers of kinds, 0 to this; 0: they are not
 };
 const DebugTopic& debugTopic(DebugView view);
 std::string debugKindName(DebugView view, unsigned kind);
@@ -30,7 +30,7 @@ struct DebugNumbers {
   std::vector<std::uint64_t> kinds;  // pixels of each
 };
 DebugNumbers debugNumbers(DebugView view, const std::vector<float>& values);
-std::string debugText(const DebugNumbers& numbers);                // one line
+std::string debugText(const DebugNumbers& numbers);                 // one line
 std::string debugValueText(const DebugTopic& topic, double value);  // with its unit
 
 }  // namespace welkin

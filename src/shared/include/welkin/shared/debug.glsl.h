@@ -61,7 +61,9 @@ WK_FN vec3 scaleColour(float x) {
 // from orbit to the ground.
 WK_FN vec3 levelColour(uint level) {
   float hue = float(level * 5u % 12u) * (kPi / F(6.0)) + F(0.4);
-  return level >= 8u && level < 20u ? oklabColour(F(0.76), F(0.115) * cos(hue), F(0.115) * sin(hue)) : oklabColour(F(0.52), F(0.10) * cos(hue), F(0.10) * sin(hue));
+  bool bright = level >= 8u && level < 20u;
+  float chroma = bright ? F(0.115) : F(0.10);
+  return oklabColour(bright ? F(0.76) : F(0.52), chroma * cos(hue), chroma * sin(hue));
 }
 
 WK_FN vec3 historyColour(uint kind) {
