@@ -32,6 +32,9 @@ bool sameView(const View& a, const View& b) {
   return a.position_m == b.position_m && a.orientation == b.orientation && a.fov_deg == b.fov_deg && a.exposure_ev == b.exposure_ev;
 }
 
+// Stretched, they must not mix: what lies between the colours of two kinds is a third one's.
+bool falseColours(const std::optional<DebugNumbers>& debug) { return debug && debug->view != DebugView::Air; }
+
 class Viewer {
  public:
   Viewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context)
@@ -101,8 +104,7 @@ class Viewer {
     const std::optional<double> picture_ms = draw(dt_s);
     const double pictured_ms = gpu::wall_ms();
     if (model_.painted && model_.painted->canvas)
-      presenter_.show(*model_.painted->canvas, model_.window,
-                      model_.painted->debug ? GL_NEAREST : GL_LINEAR);  // no colour between two kinds
+      presenter_.show(*model_.painted->canvas, model_.window, falseColours(model_.painted->debug) ? GL_NEAREST : GL_LINEAR);
     else
       presenter_.clear(model_.window);
     if (model_.software) glFinish();  // so that the profiler tells the parts apart
