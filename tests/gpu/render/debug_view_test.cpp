@@ -43,6 +43,20 @@ double mean(const std::vector<float>& values, std::size_t begin, std::size_t end
   return sum / n;
 }
 
+TEST(DebugNumbersOfValues, CountWhatHasOne) {
+  const float nan = std::nanf("");
+  const DebugNumbers n = debugNumbers(DebugView::Density, {1, 3, -1, nan});
+  EXPECT_EQ(n.pixels, 2u);
+  EXPECT_EQ(n.without, 1u);
+  EXPECT_EQ(n.nan, 1u) << "told, and in no mean";
+  EXPECT_TRUE(n.minimum == 1 && n.mean == 2 && n.maximum == 3);
+  const DebugNumbers kinds = debugNumbers(DebugView::History, {0, 4, 4, 400});
+  EXPECT_EQ(kinds.kinds, (std::vector<std::uint64_t>{1, 0, 0, 0, 2}));
+  EXPECT_EQ(debugNumbers(DebugView::Light, {}).mean, 0);
+  EXPECT_EQ(debugText(debugNumbers(DebugView::Light, {0.25f, 0.75f, -1})), "25 % to 75 %, mean 50 %, 1 pixels without");
+  EXPECT_EQ(debugText(debugNumbers(DebugView::Nan, {0, 0, 2})), "right: 2, not a number or infinite: 0, negative: 1");
+}
+
 TEST_F(DebugViews, StepsSumToTheCounterOfSamples) {
   const auto renderer = makeRenderer(*context, earth());
   ASSERT_NE(renderer, nullptr);
