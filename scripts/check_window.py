@@ -21,10 +21,10 @@ from check_window_recording import recording
 from window_driver import Screen, Window, missing, write_png
 
 PANELS = {"Camera": "1", "Scene": "2", "Quality": "3", "Exposure": "4", "Time": "5", "Profiler": "6", "Memory": "7", "Left out": "8", "Log": "9",
-          "Flight": "f", "Results": "b"}
+          "Debug": "0", "Flight": "f", "Results": "b"}
 SMALL = ["--budget", "128MiB", "--depth", "11"]  # a tree that a slow machine has soon
 KEYS = ["w", "a", "s", "d", "q", "e", "space", "z", "x", "h", "m", "r", "Tab", "Home", "Escape", "Left", "Up", "F12", "ctrl+z", "ctrl+shift+z",
-        "1", "2", "3", "4", "5", "6", "7", "8", "9", "f", "b"]
+        "1", "2", "3", "4", "5", "6", "7", "8", "9", "0", "f", "b"]
 
 
 class Check:
@@ -205,6 +205,49 @@ def changes(c):
            state["worst_frame_ms"] <= most)
     print("      " + ", ".join(f"{k} {v:.1f}" for k, v in state["worst_frame"].items()))
     c.end(w, "changes")
+
+
+DEBUG_VIEWS = {"steps": "steps", "level of detail": "detail", "occupancy": "occupancy", "history": "history", "density": "density",
+               "light": "light", "air only": "air", "NaN": "nan"}
+
+
+def debug(c):
+    """Each view of the debug panel is chosen with the mouse; then the picture again."""
+    w = c.window(*SMALL)
+    w.wait_for(lambda s: s["settled"] and s["pictures"] > 20, 60)
+    w.key(PANELS["Camera"], PANELS["Debug"])
+    w.wait_for(lambda s: s["panels"] == ["Debug"] and "steps" in s["fields"], 20)
+
+    def choose(label, view):
+        for _ in range(5):  # frames of a busy machine may miss a short press
+            x0, y0, x1, y1 = (w.fresh() or w.state())["fields"][label]
+            w.click(x0 + (y1 - y0) / 2, (y0 + y1) / 2)
+            if w.wait_for(lambda s: s["debug"]["view"] == view, 5):
+                return w.fresh()
+        return w.state()
+
+    w.move(300, 300)
+    time.sleep(1)
+    picture = w.capture()[:700, :880]
+    for label, view in DEBUG_VIEWS.items():
+        state = choose(label, view)
+        w.move(300, 300)
+        time.sleep(0.7)
+        share = differs(picture, w.capture(os.path.join(c.out, f"debug-{view}.png"))[:700, :880])
+        n = state["debug"]
+        c.line(f"debug view {view}: share of the picture that it changes", share, "over 0.01", n["view"] == view and share > 0.01)
+        reach = f"{n['minimum']:.3g} to {n['maximum']:.3g}" if n["view"] == view else "none"
+        c.line(f"debug view {view}: values", reach, "of some pixels at least", n["view"] == view and n["pixels"] > 0 and n["not_a_number"] == 0)
+    choose("picture", "none")
+    w.move(300, 300)
+    time.sleep(1)
+    share = differs(picture, w.capture()[:700, :880])
+    c.line("the picture again: share that differs", share, "below 0.01", share < 0.01)
+    state = w.fresh()
+    if not c.quick:
+        c.line("longest frame while views are chosen, ms", state["worst_frame_ms"], "at most 100", state["worst_frame_ms"] <= 100)
+    print("      " + ", ".join(f"{k} {v:.1f}" for k, v in state["worst_frame"].items()))
+    c.end(w, "debug")
 
 
 def same_view(a, b):
@@ -431,7 +474,7 @@ def monkey(c):
     c.end(w, "monkey")
 
 
-GROUPS = {f.__name__: f for f in (start, fly, panels, changes, drops, resizes, closes, refuses, recording, places, converged, monkey)}
+GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, drops, resizes, closes, refuses, recording, places, converged, monkey)}
 
 
 def main():

@@ -6,6 +6,13 @@
 #include "welkin/shared/integrators.glsl.h"
 #include "welkin/shared/step_rules.glsl.h"
 #include "lib/walk.glsl"
+#ifdef DEBUG_VIEW
+#include "lib/watch.glsl"
+#else
+#define watchNode(empty, way_m)
+#define watchSample(extinction_per_m)
+#define watchBrick(level, transmittance)
+#endif
 
 struct CloudRay {
   float sun;            // in-scatter weights: times sun irradiance, times sky and ground irradiance
@@ -85,6 +92,7 @@ struct Node { float extinction_per_m; float sun, sky; };
 
 Node nodeAt(BrickPath path, float s, CloudPhases phases) {
   vec2 data = sampleField(path, s);
+  watchSample(data.x * tree.maxExtinction_per_m);
   return Node(data.x * tree.maxExtinction_per_m, sunSource(phases, data.y), skyShare(data.y));
 }
 
@@ -139,6 +147,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       level = empty ? wordLevel(bounding) : wordLevel(word);
       steps = nodeSteps(p, level);
       next = min(t + leaveNode(walk, steps, levelSteps(level), away), end);
+      watchNode(empty, next - t);
 #if SKIP_EMPTY
       t = empty ? next : t;
 #else
@@ -219,6 +228,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       more = span - s > 1e-6 * span;
     } while (more && ray.transmittance >= kOpaqueTransmittance);
 #endif
+    watchBrick(level, ray.transmittance);
     t = next;
   } while (t < end && ray.transmittance >= kOpaqueTransmittance && visit < kMaxCells);
   float opacity = 1.0 - ray.transmittance;

@@ -27,6 +27,10 @@ void addFly(CLI::App& app, Action& action, const std::string& commandLine) {
           "--pace", [o](const std::string& pace) { o->waitForEdits = pace == "fixed"; },
           "fixed: the same pictures on every run; wall: never wait for the worker")
       ->check(CLI::IsMember({"fixed", "wall"}));
+  addParsed<DebugView>(*command, "--debug", "pictures in false colours: " + namesText(kDebugViewNames),
+                       parseName<DebugView>(kDebugViewNames), [o](DebugView v) { o->debug = v; })
+      ->excludes("--quality-frames")
+      ->excludes("--pop");
   addQualityOptions(*command, o->common);
   addToleranceOption(*command, o->common);
   addOutputOptions(*command, o->common, "where the timings go (default: timings.json in the folder)");

@@ -18,16 +18,27 @@ struct RenderOptions {
   CommonOptions common;
   std::filesystem::path input, output;
   std::string view;
+  DebugView debug = DebugView::None;
 };
 
 Result<void> writeRendered(const RenderOptions& o, const Renderer& renderer, const PictureState& state) {
   const auto folder = o.output.has_parent_path() ? o.output.parent_path() : std::filesystem::path(".");
-  const Texts texts = textsFromState(state, folder);
+  Texts texts = textsFromState(state, folder);
+  if (o.debug != DebugView::None) texts.emplace_back("welkin:debug", kDebugViewNames[std::size_t(o.debug)]);
   return kindOfName(o.output) == PictureKind::Exr ? writeExr(o.output, renderer.radiance(), texts)
                                                   : writePng(o.output, renderer.image(), texts);
 }
 
 constexpr int kTimedFrames = 5;
+constexpr int kRound = 16;  // frames until every pixel was marched
+
+// The view in false colours, of the tree as it is. Ages are those of a picture at rest, when every pixel had its turn.
+Result<FrameStats> drawDebug(const RenderOptions& o, Renderer& renderer, const View& view) {
+  if (auto used = renderer.setDebugView(o.debug); !used) return used.error();
+  FrameStats stats = renderer.frame(view, FrameMode::Full);
+  for (int i = 0; o.debug == DebugView::History && i < kRound; ++i) stats = renderer.frame(view);
+  return stats;
+}
 
 double medianTime_ms(Renderer& renderer, const View& view) {
   std::array<double, kTimedFrames> times;
@@ -45,6 +56,8 @@ void printKept(const RenderOptions& o, const measure::KeptTolerance& kept) {
 
 Result<void> runRender(const RenderOptions& o) {
   beginCommand(o.common);
+  if (o.debug != DebugView::None && kindOfName(o.output) == PictureKind::Exr)
+    return Error{fmt::format("{}: expected a name that ends in .png for a picture in false colours", o.output.string())};
   const auto begin = std::chrono::steady_clock::now();
   auto start = loadStart(o.input, o.view);
   if (!start) return start.error();
@@ -62,6 +75,7 @@ Result<void> runRender(const RenderOptions& o) {
   settings.height = size.height;
   settings.onlyView = start->view;
   settings.linear = o.common.tolerance_255 || kindOfName(o.output) == PictureKind::Exr;
+  if (o.debug == DebugView::History) settings.forced.insert("one-picture");
   auto stage = openStage(start->scene, settings, o.common.gpu);
   if (!stage) return stage.error();
   Progress progress("render", o.common.quiet);
@@ -78,6 +92,13 @@ Result<void> runRender(const RenderOptions& o) {
     if (!done) return done.error();
     kept = *done;
     *stats = stage->renderer->frame(start->view, FrameMode::Full);
+  }
+  std::optional<DebugNumbers> debug;
+  if (o.debug != DebugView::None) {
+    auto drawn = drawDebug(o, *stage->renderer, start->view);
+    if (!drawn) return drawn.error();
+    *stats = *drawn;
+    debug = debugNumbers(o.debug, stage->renderer->debugValues());
   }
   progress.update(1);
   progress.finish();
@@ -106,6 +127,8 @@ Result<void> runRender(const RenderOptions& o) {
       report.tolerance_255 = o.common.tolerance_255;
       report.tolerance.push_back({0, kept->choice, kept->reached_255});
     }
+    report.debug = debug;
+    if (auto off = stage->renderer->setDebugView(DebugView::None); !off) return off;  // times are those of the picture
     report.time_ms = medianTime_ms(*stage->renderer, start->view);
     report.total_s = seconds;
     if (auto written = writeFile(o.common.json, report.json() + "\n"); !written) return written;
@@ -113,6 +136,7 @@ Result<void> runRender(const RenderOptions& o) {
   fmt::print("{}: {}x{}, {:.1f} s, {} bricks, {} of {}\n", o.output.string(), size.width, size.height, seconds, stats->residency.bricks,
              bytesText(stats->bytesUsed), bytesText(stats->bytesBudget));
   if (kept) printKept(o, *kept);
+  if (debug) fmt::print("{}: {}\n", kDebugViewNames[std::size_t(o.debug)], debugText(*debug));
   return {};
 }
 
@@ -130,6 +154,8 @@ void addRender(CLI::App& app, Action& action) {
       ->required()
       ->check(
           [](const std::string& text) { return kindOfName(text) == PictureKind::None ? "expected a name that ends in .png or .exr" : ""; });
+  addParsed<DebugView>(*command, "--debug", "a picture in false colours: " + namesText(kDebugViewNames), parseName<DebugView>(kDebugViewNames),
+                       [o](DebugView v) { o->debug = v; });
   addQualityOptions(*command, o->common);
   addToleranceOption(*command, o->common);
   addOutputOptions(*command, o->common, "write times, residency and counters to this file");

@@ -41,6 +41,7 @@ class Replay {
     auto stage = openStage(plan_.scene, settings_, options_.common.gpu);
     if (!stage) return stage.error();
     stage_ = std::move(*stage);
+    if (auto used = stage_.renderer->setDebugView(options_.debug); !used) return used.error();
     describe();
     if (auto done = drawFrames(); !done) return done.error();
     finishReport();
@@ -172,6 +173,7 @@ class Replay {
     report_.passOrder = renderer.plan().passes;
     report_.memoryByName = renderer.memory().byName();
     report_.notes = renderer.notes();
+    if (options_.debug != DebugView::None) report_.debug = debugNumbers(options_.debug, renderer.debugValues());
     report_.glMessages = stage_.context->debugMessages();
     report_.glFirstMessages = stage_.context->firstMessages();
   }

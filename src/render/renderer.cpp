@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "render/bricks/brick_passes.h"
+#include "render/debug/debug_pass.h"
 #include "render/march/cloud_passes.h"
 #include "render/albedo_picture.h"
 #include "render/tree/resident_tree.h"
@@ -71,6 +72,8 @@ struct Renderer::Impl {
   std::optional<ResidentTree> tree;
   std::optional<BrickPasses> bricks;
   std::optional<CloudPasses> clouds;
+  std::optional<DebugPass> debug;
+  bool debugDrawn = false;  // of the last picture; not where the background was all of it
   std::unique_ptr<Streamer> streamer;
   std::deque<std::uint64_t> asked;   // frames whose edits are not taken yet
   FrameEdits last;                   // the newest applied edits, without their lists
@@ -103,6 +106,8 @@ struct Renderer::Impl {
   void beginPicture(const ViewFrame& frame, bool bare = false);  // camera, counters, sky
   // Composite and exposure. sinceLast_s: ExposurePass::meter; none: the exposure stays where it is, unless there is none yet.
   void endPicture(const ViewFrame& frame, const View& view, std::optional<double> sinceLast_s, bool bare = false);
+  Result<void> useDebugView(DebugView view);
+  void drawDebug(const ViewFrame& frame, const View& view, glm::ivec2 turn);
   bool bareNow(const View& view, FrameStats& stats);
   void catchUp(const ViewFrame& frame, FrameStats& stats);
   bool asBefore(const View& view) const;
@@ -297,6 +302,26 @@ void Renderer::Impl::endPicture(const ViewFrame& frame, const View& view, std::o
   timer.end();
 }
 
+Result<void> Renderer::Impl::useDebugView(DebugView view) {
+  std::optional<DebugPass> next;
+  if (view != DebugView::None) {
+    auto made = DebugPass::create(account, view, clouds ? &*clouds : nullptr, *composite, scene.quality, settings.width, settings.height);
+    if (!made) return made.error();
+    next.emplace(std::move(*made));
+  }
+  debug.reset();
+  if (next) debug.emplace(std::move(*next));
+  stillFrames = 0, marchedFrames = 0, debugDrawn = false;
+  return {};
+}
+
+void Renderer::Impl::drawDebug(const ViewFrame& frame, const View& view, glm::ivec2 turn) {
+  timer.begin("debug");
+  debug->draw(clouds ? &*clouds : nullptr, *composite, frame.block, shown_ev(view), turn);
+  timer.end();
+  debugDrawn = true;
+}
+
 double Renderer::Impl::shown_ev(const View& view) const { return seen_ev(view).value_or(exposure ? exposure->reached_ev() : 0); }
 
 std::optional<double> Renderer::Impl::seen_ev(const View& view) const {
@@ -420,12 +445,15 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
     r.clouds->run(frame, mode, r.scene, r.seen_ev(view), treeChanged || !r.last.stats.settled, r.timer);
     stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     r.endPicture(frame, view, sinceLast_s);
+    if (r.debug) r.drawDebug(frame, view, r.clouds->turn());
     r.timer.begin("bricks");
     r.bricks->generate(*r.tree, generate, r.step);
     r.timer.end();
     if (r.asked.size() < kLatency) r.ask(frame, r.settings.bricksPerFrame, false);
   } else {
     r.endPicture(frame, view, sinceLast_s, bare);
+    r.debugDrawn = false;
+    if (r.debug && !bare) r.drawDebug(frame, view, {-1, -1});
   }
   stats.counters = r.counted();
   stats.exposure_ev = r.shown_ev(view);  // the counters have been waited for: this is a copy
@@ -492,9 +520,10 @@ Result<void> Renderer::setMarch(const Quality& quality) {
   next.step = quality.step, next.detail = quality.detail, next.spread = quality.spread;
   if (r.clouds)
     if (auto used = r.clouds->use(r.account, next); !used) return used;
-  r.scene.quality = next;
+  const Quality was = std::exchange(r.scene.quality, next);
   r.stillFrames = 0, r.marchedFrames = 0;
-  return {};
+  const bool other = was.integrator != next.integrator || was.stepRule != next.stepRule || was.skipEmpty != next.skipEmpty;
+  return r.debug && other ? r.useDebugView(r.debug->view()) : Result<void>{};
 }
 
 Result<void> Renderer::setOutput(const Output& output) {
@@ -515,7 +544,7 @@ Result<void> Renderer::setOutput(const Output& output) {
   r.exposure.reset();
   if (exposure) r.exposure.emplace(std::move(*exposure));
   r.stillFrames = 0, r.marchedFrames = 0;
-  return {};
+  return r.debug ? r.useDebugView(r.debug->view()) : Result<void>{};  // its tone curve
 }
 
 void Renderer::setBricksPerFrame(std::uint32_t most) { impl_->settings.bricksPerFrame = most; }
@@ -526,10 +555,16 @@ Result<void> Renderer::resize(int width, int height) {
   r.settings.width = width, r.settings.height = height;
   r.shown.reset(), r.stillFrames = 0, r.marchedFrames = 0;
   if (auto made = r.composite->resize(width, height); !made) return made;
+  if (r.debug)
+    if (auto made = r.debug->resize(r.account, width, height); !made) return made;
   return r.clouds ? r.clouds->resize(r.account, width, height) : Result<void>{};
 }
 
-const gpu::Texture& Renderer::shown() const { return impl_->composite->display(); }
+const gpu::Texture& Renderer::shown() const { return impl_->debugDrawn ? impl_->debug->picture() : impl_->composite->display(); }
+
+Result<void> Renderer::setDebugView(DebugView view) { return impl_->useDebugView(view); }
+DebugView Renderer::debugView() const { return impl_->debug ? impl_->debug->view() : DebugView::None; }
+std::vector<float> Renderer::debugValues() const { return impl_->debugDrawn ? impl_->debug->values() : std::vector<float>{}; }
 
 FrameCounters Renderer::preview(const View& view) {
   Impl& r = *impl_;
@@ -564,6 +599,7 @@ void Renderer::Impl::drawAside(const View& view, const std::function<void()>& ma
     march();
   }
   endPicture(frame, view, {});
+  if (debug) drawDebug(frame, view, {-1, -1});
   timer.enabled = timed;
 }
 
@@ -597,7 +633,7 @@ double Renderer::shownDetail(const View& view) const {
 Image8 Renderer::image() const {
   Image8 image{impl_->settings.width, impl_->settings.height, {}};
   image.rgba.resize(std::size_t(image.width) * std::size_t(image.height) * 4);
-  glGetTextureImage(impl_->composite->display().id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(image.rgba.size()), image.rgba.data());
+  glGetTextureImage(shown().id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(image.rgba.size()), image.rgba.data());
   return image;
 }
 

@@ -62,7 +62,7 @@ const std::array<KeyLine, 19> kKeyLines{{{"W A S D", "forward, left, back, right
                                          {"M", "look with the mouse alone, on and off"},
                                          {"Home", "back to where it began"},
                                          {"Tab", "panels on and off"},
-                                         {"1 to 9, F, B", "open or close a panel"},
+                                         {"1 to 9, 0, F, B", "open or close a panel"},
                                          {"F11", "full screen on and off"},
                                          {"R", "record the flight; again: stop and save it"},
                                          {"Ctrl Z, Ctrl Shift Z", "undo, redo"},

@@ -19,10 +19,10 @@
 
 namespace welkin::window {
 
-enum class Panel { Camera, Scene, Quality, Exposure, Time, Profiler, Memory, LeftOut, Log, Flight, Results };
-inline constexpr std::array<const char*, 11> kPanelNames{"Camera", "Scene",    "Quality", "Exposure", "Time",   "Profiler",
-                                                         "Memory", "Left out", "Log",     "Flight",   "Results"};
-inline constexpr std::array<char, kPanelNames.size()> kPanelKeys{'1', '2', '3', '4', '5', '6', '7', '8', '9', 'F', 'B'};
+enum class Panel { Camera, Scene, Quality, Exposure, Time, Profiler, Memory, LeftOut, Log, Debug, Flight, Results };
+inline constexpr std::array<const char*, 12> kPanelNames{"Camera", "Scene",    "Quality", "Exposure", "Time",   "Profiler",
+                                                         "Memory", "Left out", "Log",     "Debug",    "Flight", "Results"};
+inline constexpr std::array<char, kPanelNames.size()> kPanelKeys{'1', '2', '3', '4', '5', '6', '7', '8', '9', '0', 'F', 'B'};
 
 struct Wanted {                                     // since the last frame
   bool march = false, air = false, output = false;  // what the renderer changes at once
@@ -48,6 +48,7 @@ struct Model {
   double time_s = 0, timeSpeed = 1;
   bool playing = false;
   bool reprojection = true;
+  DebugView debug = DebugView::None;
 
   app::Settings settings;
   bool settingsChanged = false;

@@ -56,6 +56,7 @@ void Painter::make(const Scene& scene, const RenderSettings& settings, const Vie
     if (made) {
       renderer_ = std::move(*made);
       size_ = {settings.width, settings.height};
+      debug_ = DebugView::None;
       for (int i = 0; i < kFirstFrames && wanted(); ++i)  // the last one whole: pixels of eight trees side by side show as dots
         renderer_->frame(view, i + 1 < kFirstFrames ? FrameMode::Reprojected : FrameMode::Full, 0);
     }
@@ -116,6 +117,7 @@ Painted Painter::paint(const Order& order) {
   if (order.march) tried(renderer_->setMarch(*order.march));
   if (order.output) tried(renderer_->setOutput(*order.output));
   if (order.air) painted.airRefused = !renderer_->setAir(*order.air, Renderer::AirChange::Recompute);
+  if (order.debug != debug_) tried(renderer_->setDebugView(debug_ = order.debug));
   renderer_->setBricksPerFrame(order.bricksPerFrame);
   painted.stats = renderer_->frame(order.view, order.mode, order.sinceLast_s);
   const gpu::Texture& shown = renderer_->shown();
@@ -131,6 +133,7 @@ Painted Painter::paint(const Order& order) {
   if (order.keep)
     painted.kept = {renderer_->image(),
                     app::stateOf(*renderer_, order.view, painted.stats.exposure_ev, painted.size, order.time_s, false, {})};
+  if (renderer_->debugView() != DebugView::None) painted.debug = debugNumbers(debug_, renderer_->debugValues());
   painted.shownDetail = renderer_->shownDetail(order.view);
   painted.plan = renderer_->plan();
   painted.memory = renderer_->memory().byName();

@@ -29,6 +29,7 @@ struct Canvas {
 struct Order {
   View view;
   FrameMode mode = FrameMode::Reprojected;
+  DebugView debug = DebugView::None;
   app::Size size;
   double time_s = 0;       // of the scene
   double sinceLast_s = 0;  // in the window, since the order before
@@ -55,6 +56,7 @@ struct Painted {
   std::vector<std::string> notes, failed;       // of the renderer; of what was ordered, one line each
   bool airRefused = false;                      // this change of the air needs a new renderer
   std::optional<Kept> kept;
+  std::optional<DebugNumbers> debug;  // if it is a debug view
 };
 
 class Painter {
@@ -93,6 +95,7 @@ class Painter {
   gpu::Context* context_ = nullptr;  // the thread's, with all that follows
   std::unique_ptr<Renderer> renderer_;
   app::Size size_;
+  DebugView debug_ = DebugView::None;  // asked for last
   std::array<std::shared_ptr<Canvas>, 2> canvases_;
 
   std::atomic<bool> stop_{false};

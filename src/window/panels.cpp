@@ -12,9 +12,9 @@
 namespace welkin::window {
 namespace {
 
-constexpr std::array<void (*)(Model&), kPanelNames.size()> kPanels{cameraPanel, scenePanel,    qualityPanel, exposurePanel,
-                                                                   timePanel,   profilerPanel, memoryPanel,  leftOutPanel,
-                                                                   logPanel,    flightPanel,   resultsPanel};
+constexpr std::array<void (*)(Model&), kPanelNames.size()> kPanels{cameraPanel,  scenePanel,    qualityPanel, exposurePanel,
+                                                                   timePanel,    profilerPanel, memoryPanel,  leftOutPanel,
+                                                                   logPanel,     debugPanel,    flightPanel,  resultsPanel};
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 

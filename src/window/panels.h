@@ -15,6 +15,7 @@ void profilerPanel(Model& model);
 void memoryPanel(Model& model);
 void leftOutPanel(Model& model);
 void logPanel(Model& model);
+void debugPanel(Model& model);
 void flightPanel(Model& model);
 void resultsPanel(Model& model);
 

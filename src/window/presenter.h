@@ -12,8 +12,8 @@ class Presenter {
   ~Presenter() { glDeleteFramebuffers(1, &frame_); }
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
-  void show(Canvas& picture, app::Size window) const;                   // stretched, between pixels linearly
-  void showWhole(const gpu::Texture& picture, app::Size window) const;  // at its own shape, in the middle
+  void show(Canvas& picture, app::Size window, GLenum between = GL_LINEAR) const;  // stretched; between: GL_LINEAR or GL_NEAREST
+  void showWhole(const gpu::Texture& picture, app::Size window) const;             // at its own shape, in the middle
   void clear(app::Size window) const;
 
  private:

@@ -33,6 +33,9 @@ bool sameView(const View& a, const View& b) {
   return a.position_m == b.position_m && a.orientation == b.orientation && a.fov_deg == b.fov_deg && a.exposure_ev == b.exposure_ev;
 }
 
+// Stretched, they must not mix: what lies between the colours of two kinds is a third one's.
+bool falseColours(const std::optional<DebugNumbers>& debug) { return debug && debug->view != DebugView::Air; }
+
 class Viewer {
  public:
   Viewer(const ViewOptions& options, app::Settings&& settings, app::Restored&& restored, Window& window, gpu::Context& context)
@@ -110,7 +113,7 @@ class Viewer {
     if (flights_.shows(model_.view()))
       flights_.draw(presenter_, model_.window);
     else if (model_.painted && model_.painted->canvas)
-      presenter_.show(*model_.painted->canvas, model_.window);
+      presenter_.show(*model_.painted->canvas, model_.window, falseColours(model_.painted->debug) ? GL_NEAREST : GL_LINEAR);
     else
       presenter_.clear(model_.window);
     if (model_.software) glFinish();  // so that the profiler tells the parts apart
@@ -280,6 +283,7 @@ class Viewer {
       order_.size = {std::max(size.width, 16), std::max(size.height, 16)};
       order_.view = model_.view();
       order_.mode = model_.reprojection ? FrameMode::Reprojected : FrameMode::Full;
+      order_.debug = model_.debug;
       order_.time_s = model_.time_s;
       order_.bricksPerFrame = pace_.perFrame();
       order_.keep = keep_;

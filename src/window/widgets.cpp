@@ -66,6 +66,13 @@ bool tick(const char* label, bool& value, const char* explanation) {
   return changed;
 }
 
+bool radio(const char* label, bool on, const char* explanation) {
+  const bool chosen = ImGui::RadioButton(label, on);
+  remember(label);
+  explain(explanation);
+  return chosen;
+}
+
 bool press(const char* label, const char* explanation) {
   const bool pressed = ImGui::Button(label);
   remember(label);

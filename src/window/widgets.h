@@ -23,6 +23,7 @@ struct Edited {
 Edited number(const char* label, double& value, double loaded, const Range& range, const char* explanation);
 bool choice(const char* label, int& index, std::span<const char* const> names, const char* explanation);
 bool tick(const char* label, bool& value, const char* explanation);
+bool radio(const char* label, bool on, const char* explanation);  // true: it was chosen
 bool press(const char* label, const char* explanation);            // a button
 std::string takeFinishedEdit();                                    // label of the field that was let go since the last call; empty: none
 void markEdit(const char* label);                                  // by a button

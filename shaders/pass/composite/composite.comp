@@ -12,6 +12,10 @@ layout(rgba32f, binding = 0) uniform writeonly image2D u_radiance;
 #if OPT_DISPLAY
 layout(rgba8, binding = 1) uniform writeonly image2D u_display;
 #endif
+#ifdef DEBUG_VIEW
+#include "welkin/shared/debug.glsl.h"
+layout(r32f, binding = 0) uniform writeonly image2D u_value;
+#endif
 #if OPT_AIR
 layout(std140, binding = WK_AIR_PARAMS_BINDING) uniform AirUniforms { AirBlock u_air; };
 layout(binding = WK_SKY_TRANSMITTANCE_UNIT) uniform sampler2D u_skyTransmittance;
@@ -88,11 +92,22 @@ void main() {
 #if OPT_DISPLAY
   vec3 shown = displayValues(TONE_CURVE(toneInput(light, u_exposure)), uint(pixel.x), uint(pixel.y));
 #endif
-  bool broken = any(isnan(light)) || any(isinf(light)) || isnan(cloud.a);
+  bool broken = any(isnan(light)) || any(isinf(light)) || isnan(cloud.a) || isnan(aux.x);
+#ifdef DEBUG_VIEW  // beside the picture, which has counted
+#if DEBUG_VIEW == WK_DEBUG_NAN
+  bool negative = any(lessThan(light, vec3(0.0)));
+  imageStore(u_value, pixel, vec4(broken ? 1.0 : negative ? 2.0 : 0.0));
+  shown = vec3(0.8 * dot(shown, vec3(0.3, 0.6, 0.1)));
+  broken = broken || negative;
+#else
+  imageStore(u_value, pixel, vec4(luminance(light)));
+#endif
+#else
   if (broken) {
     atomicAdd(counters.nanPixels, 1u);
     light = kNanPaint;
   }
+#endif
 #if OPT_LINEAR
   imageStore(u_radiance, pixel, vec4(light, 1.0 - cloud.a));
 #endif

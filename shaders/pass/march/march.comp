@@ -1,6 +1,7 @@
 // Marches the clouds of a set of pixels: all of them or every second or fourth of a row and column, one in 16 of a frame, or those of a list.
 #include "lib/cloud_march.glsl"
 #include "lib/shadow.glsl"
+#include "lib/tile_pixel.glsl"
 #include "welkin/shared/counters.glsl.h"
 #if OPT_AIR
 #include "lib/air.glsl"
@@ -64,16 +65,6 @@ CloudColours coloursAt(dvec3 position) {
 #endif
 }
 
-// Work groups run down strips two groups wide, so that neighbours find each other's bricks in the cache. Neighbouring invocations are a
-// 4 x 2 tile of pixels, not a row: they are run together, and their rays stay alike for longer.
-ivec2 tilePixel() {
-  uint order = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x, strip = order / (2u * gl_NumWorkGroups.y);
-  uint inStrip = order - strip * 2u * gl_NumWorkGroups.y, wide = min(2u, gl_NumWorkGroups.x - 2u * strip);
-  uvec2 group = uvec2(2u * strip + inStrip % wide, inStrip / wide);
-  uint i = gl_LocalInvocationIndex;
-  return ivec2(group * 8u + uvec2((i & 3u) | ((i >> 1u) & 4u), ((i >> 2u) & 1u) | ((i >> 3u) & 6u)));
-}
-
 void main() {
 #if PIXELS == PIXELS_LIST
   if (gl_GlobalInvocationID.x >= count) return;
@@ -102,7 +93,7 @@ void main() {
   if (cloud.transmittance < 1.0) {
     CloudColours colours = coloursAt(position + dvec3(view.dir) * double(cloud.distance_m));
     light = cloud.sun * colours.sun + cloud.sky * colours.sky + cloud.ground * colours.ground;
-    light = mix(light, vec3(kBrightest), greaterThan(light, vec3(kBrightest)));  // a NaN stays one
+    light = mix(min(light, vec3(kBrightest)), light, isnan(light));  // of a comparison compilers make min(), which loses a NaN
   }
   float shadow = 1.0;
 #if OPT_GROUND

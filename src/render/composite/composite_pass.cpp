@@ -35,12 +35,13 @@ AlbedoPicture halved(const AlbedoPicture& in) {
   return out;
 }
 
-Result<gpu::Program> composite(const CompositeParts& parts, bool albedoMap, ToneCurve curve) {
+Result<gpu::Program> composite(const CompositeParts& parts, bool albedoMap, ToneCurve curve, const gpu::Defines& more = {}) {
   const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
   gpu::Defines defines{{"OPT_CLOUDS", onOff(parts.clouds)}, {"OPT_AIR", onOff(parts.air)},       {"OPT_SUN", onOff(parts.sun)},
                        {"OPT_GROUND", onOff(parts.ground)}, {"OPT_ALBEDO_MAP", onOff(albedoMap)}, {"OPT_LINEAR", onOff(parts.linear)},
                        {"OPT_DISPLAY", onOff(parts.display)}};
   if (parts.display) defines.emplace_back("TONE_CURVE", toneCurveFunction(curve));
+  defines.insert(defines.end(), more.begin(), more.end());
   return gpu::Program::compute("pass/composite/composite.comp", defines);
 }
 
@@ -109,6 +110,19 @@ Result<void> CompositePass::prepareBare() {
   return {};
 }
 
+Result<gpu::Program> CompositePass::compileAside(bool clouds, const gpu::Defines& debug) const {
+  CompositeParts parts = *parts_;
+  parts.clouds = clouds, parts.linear = false, parts.display = true;
+  return composite(parts, albedoMap_ != 0, toneCurve_, debug);
+}
+
+void CompositePass::runAside(const gpu::Program& program, const shared::CameraBlock& camera, double exposure_ev, const gpu::Texture& values,
+                             const gpu::Texture& colours) const {
+  values.bindImage(0, GL_WRITE_ONLY);
+  colours.bindImage(1, GL_WRITE_ONLY);
+  dispatch(program, camera, exposure_ev);
+}
+
 std::uint64_t CompositePass::albedoBytes(int width, int height) {
   return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * 4 * 4 / 3 + 64;
 }
@@ -152,6 +166,12 @@ void CompositePass::swap(CompositePass& o) noexcept {
 }
 
 void CompositePass::run(const gpu::Program& program, const shared::CameraBlock& camera, double exposure_ev) const {
+  if (parts_->linear) radiance_.bindImage(0, GL_WRITE_ONLY);
+  if (parts_->display) display_.bindImage(1, GL_WRITE_ONLY);
+  dispatch(program, camera, exposure_ev);
+}
+
+void CompositePass::dispatch(const gpu::Program& program, const shared::CameraBlock& camera, double exposure_ev) const {
   const glm::dvec3 up = shared::xyz(camera.up);
   const double pixel_rad = 2 * glm::length(up) / height_;
   if (albedoMap_) glBindTextureUnit(WK_ALBEDO_UNIT, albedoMap_);
@@ -162,8 +182,6 @@ void CompositePass::run(const gpu::Program& program, const shared::CameraBlock& 
   program.set("u_sunRadius_rad", sunRadius_rad_);
   program.set("u_pixel_rad", static_cast<float>(pixel_rad));
   program.set("u_exposure", exposureScale(exposure_ev));
-  if (parts_->linear) radiance_.bindImage(0, GL_WRITE_ONLY);
-  if (parts_->display) display_.bindImage(1, GL_WRITE_ONLY);
   program.dispatch(static_cast<unsigned>(width_ + 7) / 8, static_cast<unsigned>(height_ + 7) / 8);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }

@@ -231,6 +231,15 @@ Result<gpu::Program> CloudPasses::compile(const Quality& quality, PixelSet pixel
   return gpu::Program::compute("pass/march/march.comp", variant);
 }
 
+Result<gpu::Program> CloudPasses::compileWatched(const Quality& quality, const gpu::Defines& debug) const {
+  gpu::Defines variant = defines_, rules = rulesOf(quality);
+  variant.insert(variant.end(), rules.begin(), rules.end());
+  variant.insert(variant.end(), debug.begin(), debug.end());
+  return gpu::Program::compute("pass/debug/clouds.comp", variant);
+}
+
+void CloudPasses::bindAges() const { age_[current_].bind(WK_CLOUD_AGE_UNIT); }
+
 Result<void> CloudPasses::show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds) {
   if (!given_.valid()) {
     auto program = compile(scene.quality, PixelSet::Given);  // it compiles the march, and does not call it
@@ -264,12 +273,14 @@ void CloudPasses::run(const ViewFrame& view, FrameMode mode, const Scene& scene,
   const int old = current_;
   current_ = history_ ? 1 - current_ : 0;
   if (mode == FrameMode::Full || !haveHistory_ || !history_) {
+    turn_ = glm::ivec2(-1);
     timer.begin("march");
     marchWhole(scene, seen_ev, current_);
     timer.end();
   } else {
     const glm::ivec2 offset{kOrder[phase_ % 16][0], kOrder[phase_ % 16][1]};
     ++phase_;
+    turn_ = offset;
     light_[old].bind(WK_CLOUD_LIGHT_UNIT);
     aux_[old].bind(WK_CLOUD_AUX_UNIT);
     timer.begin("march");

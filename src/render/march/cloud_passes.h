@@ -35,6 +35,12 @@ class CloudPasses {
   Result<void> show(gpu::MemoryAccount& account, const Scene& scene, std::span<const shared::CloudWeights> clouds);
   // Other targets: what history there is comes along, stretched; it gets finer as its pixels are marched again.
   Result<void> resize(gpu::MemoryAccount& account, int width, int height);
+  // For debug views: the march with watch.glsl in it, and where the last run() took its pixels from. turn: which pixel of each 4 x 4 was
+  // marched; negative: all of them were.
+  Result<gpu::Program> compileWatched(const Quality& quality, const gpu::Defines& debug) const;
+  bool hasHistory() const { return history_; }
+  void bindAges() const;
+  glm::ivec2 turn() const { return turn_; }
   void forget() { haveHistory_ = false; }  // the next frame marches every pixel
 
  private:
@@ -56,6 +62,7 @@ class CloudPasses {
   int width_ = 0, height_ = 0, current_ = 0;
   bool haveHistory_ = false;
   std::uint32_t phase_ = 0;  // which of the 16 pixels is next
+  glm::ivec2 turn_{-1};
   ViewFrame last_{};
   bool auxWanted_ = true;
   bool history_ = true;  // else every frame marches all pixels, into the one target there is

@@ -35,7 +35,7 @@ inline gpu::Defines airDefines(int layers, int peak) {
 inline constexpr const char* kToneCurveFunctions[] = {"acesFilmic", "reinhardExtended", "lottes", "uchimura"};
 
 inline std::vector<ShaderVariant> shaderTable() {
-  std::vector<ShaderVariant> table{{"pass/maps/build.comp", {}}, {"pass/reproject/reproject.comp", {}}};
+  std::vector<ShaderVariant> table{{"pass/maps/build.comp", {}}, {"pass/reproject/reproject.comp", {}}, {"pass/debug/history.comp", {}}};
   for (const char* aux : {"0", "1"})
     for (const char* history : {"0", "1"}) table.push_back({"pass/spread/spread.comp", {{"OPT_AUX", aux}, {"OPT_HISTORY", history}}});
   for (const char* textures : {"1", "2"}) {
@@ -68,6 +68,15 @@ inline std::vector<ShaderVariant> shaderTable() {
         march({.air = air, .ground = ground, .history = "0"});
       }
     march({.air = "0", .ground = "0", .aux = "0", .history = "0"});
+    for (int view = 1; view < 7; ++view) {
+      if (view == 4) continue;  // history: a pass of its own
+      const auto watched = [&](const char* air, const char* ground, int integrator) {
+        table.push_back({"pass/debug/clouds.comp",
+                         {{"BRICK_TEXTURES", textures}, {"OPT_AIR", air}, {"OPT_GROUND", ground}, {"OPT_AUX", "1"}, {"OPT_HISTORY", "1"},
+                          {"INTEGRATOR", std::to_string(integrator)}, {"STEP_RULE", "2u"}, {"SKIP_EMPTY", ground}, {"DEBUG_VIEW", std::to_string(view)}}});
+      };
+      watched("1", "1", 5), watched("0", "0", 6), watched("1", "1", 2);
+    }
     for (int integrator = 0; integrator < 7; ++integrator) march({.integrator = integrator, .rule = integrator % 5, .skip = integrator % 2 ? "0" : "1"});
   }
   for (const auto& [layers, peak] : {std::pair{1, -1}, {3, 1}, {6, 5}}) {
@@ -97,6 +106,7 @@ inline std::vector<ShaderVariant> shaderTable() {
     if (linear) composite({{"OPT_DISPLAY", "0"}});
     for (const char* curve : kToneCurveFunctions)
       if (linear || curve == kToneCurveFunctions[0]) composite({{"OPT_DISPLAY", "1"}, {"TONE_CURVE", curve}});
+    if (!linear) composite({{"OPT_DISPLAY", "1"}, {"TONE_CURVE", "lottes"}, {"DEBUG_VIEW", bits & 1 ? "8" : "7"}});
   }
   table.push_back({"pass/exposure/histogram.comp", {}});
   table.push_back({"pass/exposure/adapt.comp", {}});

@@ -24,6 +24,7 @@ struct FlightOptions {
   std::uint32_t bricksPerFrame = 2048;  // a descent of 4 % of the altitude a frame renews what is seen every 25 frames
   std::uint32_t workerJitter = 0;
   bool waitForEdits = true;
+  DebugView debug = DebugView::None;
   std::string command;  // as typed, for the report
 };
 

@@ -71,6 +71,7 @@ class TimingReport {
   std::vector<PopRow> pops;
   std::optional<double> tolerance_255;  // asked for
   std::vector<ToleranceRow> tolerance;  // newest last
+  std::optional<DebugNumbers> debug;    // of the last picture, if that is a debug view
   std::optional<double> time_ms;        // of one picture with every pixel marched: median of repeated frames, wall
   std::vector<LeftOut> leftOut;
   std::vector<std::string> passOrder;  // passes are listed in this order, unknown ones after them

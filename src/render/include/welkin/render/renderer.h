@@ -16,6 +16,7 @@
 #include "welkin/gpu/timer.h"
 #include "welkin/octree/tree_data.h"
 #include "welkin/physics/scene.h"
+#include "welkin/render/debug_view.h"
 #include "welkin/render/frame_plan.h"
 #include "welkin/shared/camera.glsl.h"
 #include "welkin/shared/cloud_weights.glsl.h"
@@ -96,6 +97,11 @@ class Renderer {
   Result<void> setOutput(const Output& output);
   // Pictures of this size from now on. Tree, light and exposure stay; the picture's history comes along, stretched.
   Result<void> resize(int width, int height);
+  // From the next picture on image() and shown() are this view in false colours (docs/debug-views.md); None: the picture again, which
+  // was drawn all the while. Fails, and changes nothing, when a shader does not compile.
+  Result<void> setDebugView(DebugView view);
+  DebugView debugView() const;
+  std::vector<float> debugValues() const;  // of the last picture, rows from the top; below 0: a pixel has none. Empty: nothing was drawn
   // Draws this view from the tree as it is now, without history; no edit is applied; history, frame count and metered exposure
   // stay. For comparing: image() and radiance() then return this picture. What its rays met is counted.
   FrameCounters preview(const View& view);

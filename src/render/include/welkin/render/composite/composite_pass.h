@@ -61,6 +61,11 @@ class CompositePass {
   // The same without air, clouds and picture of the ground. prepareBare() compiles it, once.
   Result<void> prepareBare();
   void runBare(const shared::CameraBlock& camera, double exposure_ev) const { run(bare_, camera, exposure_ev); }
+  // The same picture for a debug view (`debug` defines which), with or without clouds, tone-mapped. It writes a number for each pixel
+  // (R32F) and colours (RGBA8), and leaves radiance() and display() alone.
+  Result<gpu::Program> compileAside(bool clouds, const gpu::Defines& debug) const;
+  void runAside(const gpu::Program& program, const shared::CameraBlock& camera, double exposure_ev, const gpu::Texture& values,
+                const gpu::Texture& colours) const;
 
   const gpu::Texture& radiance() const { return radiance_; }  // RGBA32F, linear, before exposure; a = 1 - cloud transmittance; if kept
   const gpu::Texture& display() const { return display_; }    // RGBA8, sRGB values
@@ -69,6 +74,7 @@ class CompositePass {
   CompositePass() = default;
   void swap(CompositePass& o) noexcept;
   void run(const gpu::Program& program, const shared::CameraBlock& camera, double exposure_ev) const;
+  void dispatch(const gpu::Program& program, const shared::CameraBlock& camera, double exposure_ev) const;  // images are bound
   Result<void> loadAlbedo(gpu::MemoryAccount& account, AlbedoPicture picture);
 
   gpu::Program program_, bare_;
