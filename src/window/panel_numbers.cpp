@@ -6,6 +6,8 @@
 namespace welkin::window {
 namespace {
 
+std::string msText(double ms) { return ms < 100 ? fmt::format("{:.1f}", ms) : fmt::format("{:.0f}", ms); }
+
 void plot(const std::string& name, const FrameTimes::Row& row, int next, float height) {
   const float top = std::max(float(row.greatest()) * 1.15f, 1.0f);
   ImGui::PlotLines(("##" + name).c_str(), row.ms.data(), int(row.ms.size()), next, nullptr, 0, top,
@@ -13,7 +15,7 @@ void plot(const std::string& name, const FrameTimes::Row& row, int next, float h
   ImGui::SameLine();
   ImGui::BeginGroup();
   ImGui::TextUnformatted(name.c_str());
-  ImGui::TextDisabled("%.1f ms, at most %.1f", row.median(), row.greatest());
+  ImGui::TextDisabled("%s ms, at most %s", msText(row.median()).c_str(), msText(row.greatest()).c_str());
   ImGui::EndGroup();
 }
 
