@@ -17,12 +17,14 @@ import subprocess
 import sys
 import time
 
+from check_window_recording import recording
 from window_driver import Screen, Window, missing, write_png
 
-PANELS = ["Camera", "Scene", "Quality", "Exposure", "Time", "Profiler", "Memory", "Left out", "Log", "Debug"]
+PANELS = {"Camera": "1", "Scene": "2", "Quality": "3", "Exposure": "4", "Time": "5", "Profiler": "6", "Memory": "7", "Left out": "8", "Log": "9",
+          "Debug": "0", "Flight": "f", "Results": "b"}
 SMALL = ["--budget", "128MiB", "--depth", "11"]  # a tree that a slow machine has soon
 KEYS = ["w", "a", "s", "d", "q", "e", "space", "z", "x", "h", "m", "r", "Tab", "Home", "Escape", "Left", "Up", "F12", "ctrl+z", "ctrl+shift+z",
-        "1", "2", "3", "4", "5", "6", "7", "8", "9", "0"]
+        "1", "2", "3", "4", "5", "6", "7", "8", "9", "0", "f", "b"]
 
 
 class Check:
@@ -105,26 +107,22 @@ def fly(c):
     c.end(w, "fly")
 
 
-def key_of(panel):
-    return str((PANELS.index(panel) + 1) % 10)
-
-
 def panels(c):
     w = c.window(*SMALL)
     w.wait_for(lambda s: s["pictures"] > 20, 30)
-    for name in PANELS:
+    for name, key in PANELS.items():
         for open_panel in (w.fresh() or {}).get("panels", []):
-            w.key(key_of(open_panel))
+            w.key(PANELS[open_panel])
         w.wait_for(lambda s: not s["panels"], 10)
         time.sleep(0.5)
         before = w.capture()
-        w.key(key_of(name))
+        w.key(key)
         state = w.wait_for(lambda s, name=name: s["panels"] == [name], 20)
         time.sleep(0.7)
         after = w.capture(os.path.join(c.out, f"panel-{name.lower().replace(' ', '-')}.png"))
         share = differs(before[:, 910:], after[:, 910:])
         c.line(f"panel {name}", share, "opens, over 0.3 % of the bar changes", state is not None and share > 0.003)
-    w.key(key_of(PANELS[-1]), "h")
+    w.key("b", "h")
     c.line("H shows the keys", w.wait_for(lambda s: s["help"], 10) is not None, "shown", w.state()["help"])
     time.sleep(0.5)
     w.capture(os.path.join(c.out, "keys.png"))
@@ -217,7 +215,7 @@ def debug(c):
     """Each view of the debug panel is chosen with the mouse; then the picture again."""
     w = c.window(*SMALL)
     w.wait_for(lambda s: s["settled"] and s["pictures"] > 20, 60)
-    w.key(key_of("Camera"), key_of("Debug"))
+    w.key(PANELS["Camera"], PANELS["Debug"])
     w.wait_for(lambda s: s["panels"] == ["Debug"] and "steps" in s["fields"], 20)
 
     def choose(label, view):
@@ -375,20 +373,50 @@ def refuses(c):
     run("no OpenGL 4.5", dict(os.environ, DISPLAY=c.screen.display, MESA_GL_VERSION_OVERRIDE="3.3"))
 
 
-def records(c):
-    w = c.window(*SMALL, size="640x360")
-    w.key("r")
-    w.hold("w", 2)
-    w.key("r")
-    w.wait_for(lambda s: s["message"].startswith("wrote the path"), 20)
-    paths = glob.glob(os.path.join(w.shots, "welkin-path*.json"))
-    paths = [p for p in paths if not p.endswith(".scene.json")]
-    c.line("a recorded flight is written", len(paths), "1", len(paths) == 1)
-    c.end(w, "records")
-    if paths:
-        done = subprocess.run([c.welkin, "fly", paths[0], "--frames", "0:3", "--size", "96x54", "--quiet", "--out", os.path.join(c.out, "fly"), *SMALL],
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        c.line("welkin fly replays it: exit status", done.returncode, "0", done.returncode == 0)
+def places(c):
+    """The window comes back where it lay, and onto the screen if that is elsewhere now."""
+    config = os.path.join(c.out, "places")
+    kept = os.path.join(config, "welkin", "settings.json")
+
+    def settings(change=None):
+        if change is not None:
+            os.makedirs(os.path.dirname(kept), exist_ok=True)
+            with open(kept, "w", encoding="utf-8") as f:
+                json.dump({"version": 1, "window": change}, f)
+        with open(kept, encoding="utf-8") as f:
+            return json.load(f)["window"]
+
+    def opened():
+        w = c.window(*SMALL, size=None, config=config)
+        text = w.xdotool("getwindowgeometry", "--shell", w.id or "0")
+        place = dict(line.split("=") for line in text.split() if "=" in line)
+        return w, [int(place.get(k, -1)) for k in ("X", "Y", "WIDTH", "HEIGHT")]
+
+    settings({"width": 640, "height": 360, "position": [5000, -4000]})
+    w, place = opened()
+    c.line("a window kept beside every monitor: x, y, width, height", place, "640x360 on the screen of 1280x800",
+           place[2:] == [640, 360] and 0 <= place[0] <= 640 and 0 <= place[1] <= 440)
+    w.xdotool("windowmove", "--sync", w.id, "200", "150")
+    w.resize(600, 400)
+    w.wait_for(lambda s: s["window"] == [600, 400], 10)
+    w.close()
+    now = settings()
+    c.line("what is kept after it was moved", [*now["position"], now["width"], now["height"]], "[200, 150, 600, 400]",
+           now["position"] == [200, 150] and [now["width"], now["height"]] == [600, 400] and not now["maximized"])
+    w, place = opened()
+    c.line("the next window", place, "there", place == [200, 150, 600, 400])
+    w.close()
+    manager = subprocess.Popen([os.path.join(c.build, "tests", "maximiser")], env=dict(os.environ, DISPLAY=c.screen.display), stdout=subprocess.PIPE)
+    manager.stdout.readline()
+    settings(dict(now, maximized=True))
+    w, place = opened()
+    c.line("a window that was maximised", place, "covers the screen", place == [0, 0, 1280, 800])
+    w.close()
+    manager.terminate()
+    manager.wait()
+    again = settings()
+    c.line("what is kept of it", [again["maximized"], *again["position"], again["width"], again["height"]], "maximised, and where it lay before",
+           again == dict(now, maximized=True))
 
 
 def converged(c):
@@ -434,6 +462,11 @@ def monkey(c):
             w.resize(dice.randint(100, 1280), dice.randint(100, 800))
         if w.alive():
             memory.append(w.memory_mib())
+    w.key("Escape")  # a benchmark that it began
+    state = w.wait_for(lambda s: s["flight"]["running"] == "", 30)
+    c.line("a flight that it began is stopped by Escape", state is not None, "stopped", state is not None)
+    if w.alive():
+        memory.append(w.memory_mib())
     c.line(f"alive after {seconds} s of random input (seed {seed})", w.alive(), "alive", w.alive())
     if memory:
         c.line("memory in the end over that in the middle", memory[-1] / memory[len(memory) // 2], "below 1.5", memory[-1] < 1.5 * memory[len(memory) // 2])
@@ -441,7 +474,7 @@ def monkey(c):
     c.end(w, "monkey")
 
 
-GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, drops, resizes, closes, refuses, records, converged, monkey)}
+GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, drops, resizes, closes, refuses, recording, places, converged, monkey)}
 
 
 def main():

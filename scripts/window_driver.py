@@ -66,7 +66,7 @@ class Window:
         os.makedirs(self.shots, exist_ok=True)
         self.environment = dict(os.environ, DISPLAY=screen.display, XDG_CONFIG_HOME=config or os.path.join(out, "config"))
         self.log = open(os.path.join(out, "log.txt"), "w", encoding="utf-8")
-        self.process = subprocess.Popen([os.path.join(build, "welkin"), "view", *arguments, "--size", size, "--state", self.state_file, "--shots", self.shots],
+        self.process = subprocess.Popen([os.path.join(build, "welkin"), "view", *arguments, *(["--size", size] if size else []), "--state", self.state_file, "--shots", self.shots],
                                         env=self.environment, stdout=self.log, stderr=self.log)
         self.id = None
         if wait:
@@ -127,10 +127,12 @@ class Window:
         self.move(x0, y0)
         time.sleep(0.1)
         self.xdotool("mousedown", str(button))
+        time.sleep(0.2)  # a slow frame still sees where it began
         for i in range(1, steps + 1):
             self.move(x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps)
             time.sleep(0.06)
         self.xdotool("mouseup", str(button))
+        time.sleep(0.2)
 
     def drop(self, *files):
         return subprocess.run([os.path.join(self.build, "tests", "xdnd_source"), self.id, *files], env=self.environment, stderr=subprocess.DEVNULL, timeout=30).returncode

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "welkin/app/commands.h"
+#include "welkin/app/flight_result.h"
 #include "welkin/core/files.h"
 #include "welkin/measure/flip.h"
 #include "welkin/measure/image_compare.h"
@@ -15,8 +16,21 @@ struct CompareOptions {
   std::optional<double> exposure_ev;
 };
 
-Result<void> runCompare(const CompareOptions& o) {
-  beginCommand(o.common);
+// Two results of flights: times by pass, and what was set differently.
+Result<void> compareFlights(const CompareOptions& o) {
+  if (!o.difference.empty()) return Error{fmt::format("{}: a picture of the difference is of two pictures", o.difference.string())};
+  const auto a = loadFlightResult(o.a);
+  if (!a) return a.error();
+  const auto b = loadFlightResult(o.b);
+  if (!b) return b.error();
+  if (!o.common.json.empty()) {
+    if (auto written = writeFile(o.common.json, comparisonJson(*a, *b)); !written) return written;
+  }
+  fmt::print("A: {}\nB: {}\n\n{}", o.a.string(), o.b.string(), comparisonText(compareResults(*a, *b)));
+  return {};
+}
+
+Result<void> comparePictures(const CompareOptions& o) {
   auto a = readPicture(o.a);
   if (!a) return a.error();
   auto b = readPicture(o.b);
@@ -71,14 +85,21 @@ Result<void> runCompare(const CompareOptions& o) {
   return {};
 }
 
+Result<void> runCompare(const CompareOptions& o) {
+  beginCommand(o.common);
+  return isFlightResult(o.a) || isFlightResult(o.b) ? compareFlights(o) : comparePictures(o);
+}
+
 }  // namespace
 
 void addCompare(CLI::App& app, Action& action) {
   auto o = std::make_shared<CompareOptions>();
-  auto* command = app.add_subcommand("compare", "how far two pictures are apart: RMSE, PSNR, max, perceived difference");
-  command->footer("Example:\n  welkin compare before.png after.png -o difference.png");
-  command->add_option("A", o->a, "a PNG or EXR picture")->required();
-  command->add_option("B", o->b, "another one of the same kind and size")->required();
+  auto* command =
+      app.add_subcommand("compare", "two pictures: RMSE, PSNR, max, perceived difference; or two results of fly: times by pass");
+  command->footer(
+      "Examples:\n  welkin compare before.png after.png -o difference.png\n  welkin compare before/timings.json after/timings.json");
+  command->add_option("A", o->a, "a PNG or EXR picture, or a result (JSON) of welkin fly")->required();
+  command->add_option("B", o->b, "another one of the same kind; pictures of the same size")->required();
   command->add_option("-o,--output", o->difference, "write the perceived difference as a PNG picture")->check([](const std::string& text) {
     return kindOfName(text) == PictureKind::Png ? "" : "expected a name that ends in .png";
   });

@@ -15,15 +15,18 @@
 namespace welkin::app {
 namespace {
 
-constexpr int kChoiceFrames = 60;     // a march for the tolerance is picked anew so often: the altitude changes by a few times in between at most
-constexpr double kSettleShare = 0.1;  // of the progress bar: about the time that settling takes of the whole flight
+constexpr int kChoiceFrames =
+    60;  // a march for the tolerance is picked anew so often: the altitude changes by a few times in between at most
+constexpr double kSettleShare = 0.1;     // of the progress bar: about the time that settling takes of the whole flight
+constexpr double kConvergedFrames = 30;  // a converged picture takes about as long as so many frames of the flight
 
 std::string heightText(double h_m) { return h_m >= 10000 ? fmt::format("{:.0f} km", h_m / 1000) : fmt::format("{:.0f} m", h_m); }
 
 // One replay: what it has and what it leaves.
 class Replay {
  public:
-  Replay(const FlightOptions& options, FlightPlan plan) : options_(options), plan_(std::move(plan)), data_(dataChecksums(plan_.scene)) {
+  Replay(const FlightOptions& options, FlightPlan plan, const FlightWatch& watch)
+      : options_(options), plan_(std::move(plan)), watch_(watch), data_(dataChecksums(plan_.scene)) {
     settings_.width = plan_.size.width;
     settings_.height = plan_.size.height;
     settings_.bricksPerFrame = options.bricksPerFrame;
@@ -32,32 +35,41 @@ class Replay {
     settings_.linear = false;
   }
 
-  Result<void> run() {
+  Result<measure::TimingReport> run() {
     const auto start = std::chrono::steady_clock::now();
+    go(0, "opening the scene");
     auto stage = openStage(plan_.scene, settings_, options_.common.gpu);
     if (!stage) return stage.error();
     stage_ = std::move(*stage);
-    if (auto used = stage_.renderer->setDebugView(options_.debug); !used) return used;
+    if (auto used = stage_.renderer->setDebugView(options_.debug); !used) return used.error();
     describe();
-    if (auto done = drawFrames(); !done) return done;
+    if (auto done = drawFrames(); !done) return done.error();
     finishReport();
-    if (!report_.stopped) {
-      if (auto done = measureQuality(); !done) return done;
+    if (!stopped()) {
+      if (auto done = measureQuality(); !done) return done.error();
     }
+    report_.stopped = stopped();
     report_.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (auto written = writeFile(plan_.json, report_.json() + "\n"); !written) return written;
     if (!pictures_.empty()) {
-      if (auto written = writePng(plan_.out / "contact-sheet.png", contactSheet(pictures_), {}); !written) return written;
+      if (auto written = writePng(plan_.out / "contact-sheet.png", contactSheet(pictures_), {}); !written) return written.error();
     }
-    summary();
-    if (report_.stopped)
-      return Error{
-          fmt::format("{}: stopped after {} of {} frames", options_.path.string(), report_.frames.size(), plan_.end - plan_.first)};
-    return {};
+    return std::move(report_);
   }
 
  private:
   const PathFrame& pose(int frame) const { return plan_.path.frames[std::size_t(frame)]; }
+
+  bool stopped() const { return stopped_ || stopRequested(); }
+
+  bool go(double fraction, const std::string& note) {
+    if (watch_.progress && !watch_.progress(fraction, note)) stopped_ = true;
+    return !stopped();
+  }
+
+  double flightShare() const {  // of the whole progress
+    const double frames = plan_.end - plan_.first;
+    return frames / (frames + kConvergedFrames * double(options_.qualityFrames.size()));
+  }
 
   double sinceLast_s(int frame) const { return frame > plan_.first ? pose(frame).time_s - pose(frame - 1).time_s : plan_.path.timeStep_s; }
 
@@ -78,28 +90,22 @@ class Replay {
       if (!opened) return opened.error();
       video = std::move(*opened);
     }
-    Progress progress("fly", options_.common.quiet);
     const int warmUp = plan_.path.warmUp, total = warmUp + plan_.end - plan_.first;
     const double settling = warmUp > 0 ? kSettleShare : 0;  // without a warm-up the flight starts from an empty tree
-    const auto drawn = [&](int count, const std::string& note) { progress.update(settling + (1 - settling) * count / total, note); };
-    progress.update(0, "settling");
+    const auto drawn = [&](int count, const std::string& note) { go(flightShare() * (settling + (1 - settling) * count / total), note); };
     if (warmUp > 0) {
-      stage_.renderer->settle(pose(plan_.first).view, [&](double fraction) {
-        progress.update(settling * fraction, "settling");
-        return !stopRequested();
-      });
+      stage_.renderer->settle(pose(plan_.first).view, [&](double fraction) { return go(flightShare() * settling * fraction, "settling"); });
     }
-    for (int i = 0; i < warmUp && !stopRequested(); ++i) {
+    for (int i = 0; i < warmUp && !stopped(); ++i) {
       stage_.renderer->frame(pose(plan_.first).view, FrameMode::Reprojected, plan_.path.timeStep_s);
       drawn(i + 1, "warm-up");
     }
-    for (int frame = plan_.first; frame < plan_.end && !stopRequested(); ++frame) {
+    for (int frame = plan_.first; frame < plan_.end && !stopped(); ++frame) {
       if ((frame - plan_.first) % kChoiceFrames == 0)
         if (auto chosen = chooseMarch(frame); !chosen) return chosen;
       if (auto done = drawFrame(frame, video.get()); !done) return done;
       drawn(warmUp + frame + 1 - plan_.first, heightText(report_.frames.back().altitude_m));
     }
-    report_.stopped = stopRequested();
     return video ? video->finish() : Result<void>{};
   }
 
@@ -109,7 +115,8 @@ class Replay {
     const View& view = pose(frame).view;
     const double exposure_ev = report_.frames.empty() ? view.exposure_ev.value_or(plan_.scene.output.exposure_ev.value_or(0))
                                                       : report_.frames.back().stats.exposure_ev;
-    const auto choice = measure::chooseMarch(*stage_.renderer, view, exposure_ev, *options_.common.tolerance_255, measure::DrawnAs::Reprojected);
+    const auto choice =
+        measure::chooseMarch(*stage_.renderer, view, exposure_ev, *options_.common.tolerance_255, measure::DrawnAs::Reprojected);
     if (!choice) return choice.error();
     report_.tolerance_255 = options_.common.tolerance_255;
     report_.tolerance.push_back({frame, *choice, {}});
@@ -132,8 +139,9 @@ class Replay {
     row.stats = stage_.renderer->frame(view, FrameMode::Reprojected, sinceLast_s(frame));
     const bool quality = std::find(options_.qualityFrames.begin(), options_.qualityFrames.end(), frame) != options_.qualityFrames.end();
     const bool wanted = pictureWanted(plan_, frame);
-    if (wanted || quality || video) {
+    if (wanted || quality || video || watch_.picture) {
       Image8 image = stage_.renderer->image();
+      if (watch_.picture) watch_.picture(frame, image);
       if (video) {
         if (auto added = video->add(image); !added) return added;
       }
@@ -176,53 +184,26 @@ class Replay {
     stage_.renderer.reset();
     auto reference = Renderer::create(*stage_.context, plan_.scene, settings_);
     if (!reference) return reference.error();
-    Progress progress("quality", options_.common.quiet);
     for (std::size_t i = 0; i < qualityImages_.size(); ++i) {
       const auto& [frame, exposure_ev, image] = qualityImages_[i];
       View view = pose(frame).view;
       view.exposure_ev = exposure_ev;  // as the flight had adapted
       const auto drawn = drawConverged(**reference, view, [&, frame = frame](double f) {
-        progress.update((double(i) + f) / double(qualityImages_.size()), fmt::format("frame {}", frame));
-        return !stopRequested();
+        const double part = (double(i) + f) / double(qualityImages_.size());
+        return go(flightShare() + (1 - flightShare()) * part, fmt::format("converged, frame {}", frame));
       });
-      if (!drawn) {
-        report_.stopped = true;
-        return {};
-      }
+      if (!drawn) return {};  // it was stopped
       auto error = measure::compare((*reference)->image(), image);
       if (!error) return error.error();
       report_.quality.push_back({frame, *error});
-      progress.update(double(i + 1) / double(qualityImages_.size()), fmt::format("frame {}", frame));
     }
     return {};
   }
 
-  void summary() const {
-    fmt::print("{}", report_.table());
-    if (report_.frames.empty()) return;
-    fmt::print("{} frames at {}x{}, {} of {} used at most, on {}\n", report_.frames.size(), plan_.size.width, plan_.size.height,
-               bytesText(report_.greatestBytes()), bytesText(plan_.scene.quality.budget_bytes), report_.context.glRenderer);
-    if (!report_.quality.empty()) {
-      std::vector<double> rmse;
-      for (const auto& row : report_.quality) rmse.push_back(row.error.rmse_255);
-      const auto s = measure::summarize(rmse);
-      fmt::print("RMSE against the converged picture, 0-255, {} frames: median {:.2f}, max {:.2f}\n", s.n, s.median, s.max);
-    }
-    if (!report_.pops.empty()) {
-      double greatest = 0;
-      for (const auto& row : report_.pops) greatest = std::max(greatest, row.p999_255);
-      fmt::print("change by the tree alone, p99.9, 0-255, {} frames: {:.2f} at most\n", report_.pops.size(), greatest);
-    }
-    fmt::print("{}\n", plan_.json.string());
-    if (report_.nanPixels() > 0) log::warn("{} pixels were not a number", report_.nanPixels());
-    if (report_.holes() > 0) log::warn("{} rays met a place without data", report_.holes());
-    if (report_.glMessages > 0)
-      log::warn("{} messages of the GL, the first: {}", report_.glMessages,
-                report_.glFirstMessages.empty() ? "" : report_.glFirstMessages[0]);
-  }
-
   const FlightOptions& options_;
   FlightPlan plan_;
+  const FlightWatch& watch_;
+  bool stopped_ = false;
   std::map<std::filesystem::path, std::string> data_;
   RenderSettings settings_;
   Stage stage_;
@@ -236,13 +217,57 @@ class Replay {
   std::vector<QualityImage> qualityImages_;
 };
 
+void printSummary(const measure::TimingReport& report) {
+  fmt::print("{}", report.table());
+  if (report.frames.empty()) return;
+  fmt::print("{} frames at {}x{}, {} of {} used at most, on {}\n", report.frames.size(), report.context.width, report.context.height,
+             bytesText(report.greatestBytes()), bytesText(report.context.budget_bytes), report.context.glRenderer);
+  if (!report.quality.empty()) {
+    std::vector<double> rmse;
+    for (const auto& row : report.quality) rmse.push_back(row.error.rmse_255);
+    const auto s = measure::summarize(rmse);
+    fmt::print("RMSE against the converged picture, 0-255, {} frames: median {:.2f}, max {:.2f}\n", s.n, s.median, s.max);
+  }
+  if (!report.pops.empty()) {
+    double greatest = 0;
+    for (const auto& row : report.pops) greatest = std::max(greatest, row.p999_255);
+    fmt::print("change by the tree alone, p99.9, 0-255, {} frames: {:.2f} at most\n", report.pops.size(), greatest);
+  }
+}
+
+void warnOf(const measure::TimingReport& report) {
+  if (report.nanPixels() > 0) log::warn("{} pixels were not a number", report.nanPixels());
+  if (report.holes() > 0) log::warn("{} rays met a place without data", report.holes());
+  if (report.glMessages > 0)
+    log::warn("{} messages of the GL, the first: {}", report.glMessages, report.glFirstMessages.empty() ? "" : report.glFirstMessages[0]);
+}
+
 }  // namespace
 
+Result<measure::TimingReport> replay(const FlightOptions& options, FlightPlan plan, const FlightWatch& watch) {
+  return Replay(options, std::move(plan), watch).run();
+}
+
 Result<void> fly(const FlightOptions& options) {
-  auto plan = planFlight(options);
+  const auto plan = planFlight(options);
   if (!plan) return plan.error();
   listenForStop();
-  return Replay(options, std::move(*plan)).run();
+  Progress progress("fly", options.common.quiet);
+  const auto report = replay(options, *plan,
+                             {[&](double fraction, const std::string& note) {
+                                progress.update(fraction, note);
+                                return true;  // Ctrl-C is looked after already
+                              },
+                              {}});
+  progress.finish();
+  if (!report) return report.error();
+  if (auto written = writeFile(plan->json, report->json() + "\n"); !written) return written;
+  printSummary(*report);
+  fmt::print("{}\n", plan->json.string());
+  warnOf(*report);
+  if (report->stopped)
+    return Error{fmt::format("{}: stopped after {} of {} frames", options.path.string(), report->frames.size(), plan->end - plan->first)};
+  return {};
 }
 
 }  // namespace welkin::app

@@ -157,6 +157,10 @@ measure::ReportContext describeRun(const Scene& scene, Size size) {
   c.depth = scene.quality.depth;
   c.step = scene.quality.step;
   c.detail = scene.quality.detail;
+  c.spread = scene.quality.spread;
+  c.integrator = kIntegratorNames[std::size_t(scene.quality.integrator)];
+  c.stepRule = kStepRuleNames[std::size_t(scene.quality.stepRule)];
+  c.skipEmpty = scene.quality.skipEmpty;
   c.seed = scene.quality.seed;
   c.budget_bytes = scene.quality.budget_bytes;
   return c;

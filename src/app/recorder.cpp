@@ -57,12 +57,6 @@ bool Recording::add(double at_s, const View& view, double time_s) {
   return true;
 }
 
-void Recording::setCut(double in_s, double out_s) {
-  const auto within = [&](double t, double otherwise) { return std::isfinite(t) ? std::clamp(t, 0.0, duration_s()) : otherwise; };
-  in_s_ = within(in_s, 0);
-  out_s_ = std::max(in_s_, within(out_s, duration_s()));
-}
-
 LiveFrame Recording::at(double time_s) const {
   const double t = frames_.front().at_s + time_s;
   const auto later =
@@ -77,12 +71,12 @@ LiveFrame Recording::at(double time_s) const {
 Result<FlightPath> Recording::path(double timeStep_s) const {
   if (frames_.empty()) return Error{"nothing is recorded"};
   if (!(timeStep_s > 0)) return Error{"expected a time step over 0 s"};
-  const double steps = std::floor((out_s() - in_s() + kSameMoment_s) / timeStep_s);
+  const double steps = std::floor((duration_s() + kSameMoment_s) / timeStep_s);
   if (steps >= kMaxPathFrames) return Error{fmt::format("expected at most {} frames, got {:.0f}", kMaxPathFrames, steps + 1)};
   FlightPath out;
   out.timeStep_s = timeStep_s;
   for (int i = 0; i <= int(steps); ++i) {
-    const LiveFrame frame = at(in_s() + i * timeStep_s);
+    const LiveFrame frame = at(i * timeStep_s);
     out.frames.push_back({frame.view, frame.time_s});
   }
   return out;

@@ -26,7 +26,7 @@ Result<Restored> restorePath(const fs::path& file) {
   auto scene = loadScene(path->scene);
   if (!scene) return Error{fmt::format("{}: /scene: {}", file.string(), scene.error().message)};
   if (auto above = checkPath(*path, scene->planet); !above) return above.error();
-  Restored out{RestoredKind::Path, {}, {}};
+  Restored out{RestoredKind::Path, {}, {}, {}};
   out.start.scene = std::move(*scene);
   out.start.view = path->frames.front().view;
   out.start.size = {path->width, path->height};
@@ -52,14 +52,20 @@ Result<Restored> restoreFrom(const fs::path& file) {
   const bool picture = kindOfBytes(head) != PictureKind::None;
   const auto first = head.find_first_not_of(" \t\r\n");
   if (!picture && (first == std::string::npos || head[first] != '{')) {
-    return Error{fmt::format("{}: expected a picture (PNG, EXR) of this program, a scene or a path (JSON)", oneLine(file.string(), 1000))};
+    return Error{fmt::format("{}: expected a picture (PNG, EXR) of this program, a scene, a path or a result of a flight (JSON)",
+                             oneLine(file.string(), 1000))};
   }
   if (fs::file_size(file, ec) > kMostBytes)
     return Error{fmt::format("{}: expected at most {} bytes", oneLine(file.string(), 1000), kMostBytes)};
+  if (!picture && isFlightResult(file)) {
+    auto result = loadFlightResult(file);
+    if (!result) return result.error();
+    return Restored{RestoredKind::FlightResult, {}, {}, std::move(*result)};
+  }
   if (!picture && hasFrames(file)) return restorePath(file);
   auto start = loadStart(file, "");
   if (!start) return start.error();
-  return Restored{picture ? RestoredKind::Picture : RestoredKind::Scene, std::move(*start), {}};
+  return Restored{picture ? RestoredKind::Picture : RestoredKind::Scene, std::move(*start), {}, {}};
 }
 
 }  // namespace welkin::app

@@ -56,6 +56,12 @@ Json contextJson(const ReportContext& c) {
                      {"seed", c.seed},
                      {"bricks_per_frame", c.bricksPerFrame},
                      {"deterministic", c.deterministic}};
+  if (!c.integrator.empty()) {
+    out["settings"]["integrator"] = c.integrator;
+    out["settings"]["step_rule"] = c.stepRule;
+    out["settings"]["skip_empty"] = c.skipEmpty;
+    out["settings"]["spread"] = c.spread;
+  }
   return out;
 }
 

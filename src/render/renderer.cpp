@@ -178,6 +178,7 @@ Result<void> Renderer::Impl::create() {
   stream.groupCapacity = layout.groups;
   stream.detailLimit = scene.quality.detail;
   if (!settings.forced.contains("overcast")) stream.deck = opaqueDeck(scene);
+  if (plan.sun && scene.sun) stream.toSun = scene.sun->direction_planet;
   streamer = std::make_unique<Streamer>(*source, root, stream, settings.workerJitterSeed);
   updateTreeBlock({0, 0, 0});
   return {};
@@ -498,6 +499,7 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
   if (r.plan.sun && batches > (r.plan.sunMayMove ? 1 : 0)) {
     std::vector<BrickJob> all;
     for (const auto& [brick, job] : lit) all.push_back(job);
+    if (!r.plan.sunMayMove) stats.bricksLit = std::uint32_t(all.size());
     r.timer.begin("light");
     r.bricks->light(*r.tree, all);
     r.timer.end();

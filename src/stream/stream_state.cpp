@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <stdexcept>
 
 #include "job_queue.h"
 #include "motion.h"
+#include "relight.h"
 #include "welkin/octree/selection.h"
 #include "welkin/octree/validator.h"
 #include "welkin/stream/streamer.h"
@@ -18,9 +18,6 @@ constexpr double kLeastDetail = 1e-9, kGlideFrom = 1.0 / 64;
 constexpr double kGlideUp = 1.005, kGlideDown = 0.95;
 // A level is sampled from 3/8 of its range on: its child's range is half of it, and the last quarter of that blends with this level.
 constexpr double kSampledFrom = 0.375;
-// A brick's light looks at its neighbours towards the sun. Those that come in the same frames as it may be missing when it is lit first, so it
-// is lit once more after this many steps, before it is sampled: what is new is resident earlier than that. A cut lights all anew at its end.
-constexpr std::uint64_t kLightAgain = 6;
 constexpr std::uint32_t kMaxNewGroups = 1024;  // a step: bounds of their children cost most of it
 
 }  // namespace
@@ -31,7 +28,8 @@ struct StreamState::Impl {
         root(rootFrame),
         settings(streamSettings),
         tree(streamSettings.groupCapacity, streamSettings.brickCapacity),
-        jobs(tree) {
+        jobs(tree),
+        relight(streamSettings.toSun, streamSettings.brickCapacity) {
     if (settings.depth < 1 || settings.depth > shared::kMaxDepth) throw std::invalid_argument("octree: the depth must be 1 to 24");
     selectionSettings = {settings.depth,       settings.brickCapacity, settings.groupCapacity,
                          settings.detailLimit, kMaxNewGroups,          source.emptyFrom()};
@@ -49,7 +47,7 @@ struct StreamState::Impl {
   bool reselect();
   void followDetail(bool snap);
   void findBand(NodeIndex node, const NodeView& view, const NodeView::Seen& above);
-  void writeOut(FrameEdits& edits, bool snap);
+  void writeOut(FrameEdits& edits, bool snap, bool idle, std::uint32_t maxBricks);
   ResidencyStats stats(bool settled) const;
 
   const DensitySource& source;
@@ -67,12 +65,7 @@ struct StreamState::Impl {
   double targetDetail = 0;  // where it glides to
   double drawnDetail = 0;   // K at which rays sample: that, or what a pixel asks for
   float bandBase_m = 0, bandTop_m = 0;
-  struct Relight {
-    std::uint64_t step;
-    BrickIndex brick;
-    std::uint32_t ticket;
-  };
-  std::deque<Relight> relight;  // in order of their steps
+  Relight relight;
   std::uint64_t steps = 0;
 };
 
@@ -168,7 +161,7 @@ void StreamState::Impl::findBand(NodeIndex node, const NodeView& view, const Nod
   for (std::uint32_t octant = 0; octant < 8; ++octant) findBand(nodeOf(n.children, octant), view, seen);
 }
 
-void StreamState::Impl::writeOut(FrameEdits& edits, bool snap) {
+void StreamState::Impl::writeOut(FrameEdits& edits, bool snap, bool idle, std::uint32_t maxBricks) {
   auto& touched = changes.touched;
   std::sort(touched.begin(), touched.end());
   for (const NodeIndex node : touched) {
@@ -190,19 +183,15 @@ void StreamState::Impl::writeOut(FrameEdits& edits, bool snap) {
     const NodeAddress at = tree.address(node);
     if (!covered) edits.dirty.push_back({at.corner, at.level});
   }
+  std::erase_if(changes.shown, [&](NodeIndex node) { return !reachable(node) || tree.node(node).brick.isZero() || tree.node(node).pending; });
   for (const NodeIndex node : changes.shown) {
-    const Node& n = tree.node(node);
-    if (!reachable(node) || n.brick.isZero() || n.pending) continue;
     const NodeAddress at = tree.address(node);
-    edits.light.push_back({n.brick.value, at.corner, at.level});
-    if (!snap) relight.push_back({steps + kLightAgain, n.brick, tree.ticket(n.brick)});
+    edits.light.push_back({tree.node(node).brick.value, at.corner, at.level});
   }
-  for (; !relight.empty() && relight.front().step <= steps; relight.pop_front()) {
-    const Relight& due = relight.front();
-    if (tree.ticket(due.brick) != due.ticket || !reachable(tree.owner(due.brick))) continue;
-    const NodeAddress at = tree.address(tree.owner(due.brick));
-    edits.light.push_back({due.brick.value, at.corner, at.level});
-  }
+  relight.lit(tree, changes.shown, steps, !snap);  // a cut lights all at its end: each once
+  relight.take(tree, steps, edits.light);
+  // As much again as half of what is lit anyway; with nothing else to do, as much as is generated otherwise.
+  relight.sweep(tree, steps, idle ? maxBricks : std::uint32_t(edits.light.size()) / 2, edits.light);
   changes.clear();
 }
 
@@ -246,12 +235,12 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
     if (bandBase_m > bandTop_m) bandBase_m = bandTop_m = 0;
   }
   ++steps;
-  writeOut(edits, input.snap);
+  writeOut(edits, input.snap, idle, input.maxBricks);
   edits.sampleDetail = static_cast<float>(detail);
   edits.sampleNear_m = static_cast<float>(motion.view().near_m);
   edits.bandBase_m = bandBase_m;
   edits.bandTop_m = bandTop_m;
-  edits.stats = stats(idle && relight.empty() && detail == targetDetail && motion.view().near_m == 0);
+  edits.stats = stats(idle && relight.done() && detail == targetDetail && motion.view().near_m == 0);
   return edits;
 }
 

@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "welkin/window/game_pad.h"
@@ -61,7 +62,7 @@ const std::array<KeyLine, 19> kKeyLines{{{"W A S D", "forward, left, back, right
                                          {"M", "look with the mouse alone, on and off"},
                                          {"Home", "back to where it began"},
                                          {"Tab", "panels on and off"},
-                                         {"1 to 9, 0", "open or close a panel"},
+                                         {"1 to 9, 0, F, B", "open or close a panel"},
                                          {"F11", "full screen on and off"},
                                          {"R", "record the flight; again: stop and save it"},
                                          {"Ctrl Z, Ctrl Shift Z", "undo, redo"},
@@ -109,26 +110,25 @@ void Controls::fly(Model& model, Window& window, const Events& events, bool mous
 
 void Controls::press(Model& model, Window& window, Press press) {
   const int key = press.key;
-  if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) {
-    const auto panel = std::size_t(key - GLFW_KEY_0 + 9) % 10;
+  const auto named = std::find(kPanelKeys.begin(), kPanelKeys.end(), key);  // GLFW's codes of letters and digits are these
+  if (named != kPanelKeys.end()) {
+    const auto panel = std::size_t(named - kPanelKeys.begin());
     model.open[panel] = !model.open[panel] || !model.sidebar;
     if (model.open[panel]) model.sidebar = true, model.showNow = Panel(panel);
   }
   if (key == GLFW_KEY_H || (key == GLFW_KEY_SLASH && (press.mods & GLFW_MOD_SHIFT))) model.help = !model.help;
   if (key == GLFW_KEY_TAB) model.sidebar = !model.sidebar;
-  if (key == GLFW_KEY_ESCAPE) model.help = false, window.captureMouse(false);
+  if (key == GLFW_KEY_ESCAPE) model.help = false, model.wanted.stopFlight = true, window.captureMouse(false);
   if (key == GLFW_KEY_M) window.captureMouse(!window.mouseCaptured());
   if (key == GLFW_KEY_HOME) model.camera.flyTo(model.home);
   if (key == GLFW_KEY_F11) window.toggleFullScreen();
   if (key == GLFW_KEY_F12) (press.mods & GLFW_MOD_SHIFT ? model.wanted.convergedPicture : model.wanted.picture) = true;
   if (key == GLFW_KEY_Z && (press.mods & GLFW_MOD_CONTROL)) press.mods& GLFW_MOD_SHIFT ? model.redo() : model.undo();
-  if (key == GLFW_KEY_R) {
-    const bool begins = model.tape != Model::Tape::Recording;
-    if (begins)
-      model.recording = {}, model.tape_s = 0;
+  if (key == GLFW_KEY_R && !model.flight) {
+    if (model.deck.mode() == Deck::Mode::Recording)
+      model.wanted.endRecording = model.wanted.savePath = true;
     else
-      model.wanted.savePath = true;
-    model.tape = begins ? Model::Tape::Recording : Model::Tape::Idle;
+      model.deck.record();
   }
   if (key == GLFW_KEY_Q && (press.mods & GLFW_MOD_CONTROL)) window.close();
 }

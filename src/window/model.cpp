@@ -26,17 +26,31 @@ void Model::start(Scene begun, const View& view) {
   wanted.rebuild = true;
 }
 
+void Results::add(app::FlightResult result) {
+  all.push_back(std::move(result));
+  const int newest = int(all.size()) - 1;
+  if (a >= 0 && b >= 0) a = b;
+  (a < 0 ? a : b) = newest;
+}
+
 void Model::runTape(double dt_s) {
-  if (tape == Tape::Idle) return;
-  tape_s += dt_s;
-  if (tape == Tape::Recording) {
-    if (!recording.add(tape_s, camera.view(), time_s)) tape = Tape::Idle, say("the recording is full", true);
-    return;
+  if (deck.mode() == Deck::Mode::Recording && !deck.add(dt_s, view(), time_s)) {
+    wanted.endRecording = true;
+    say("the recording is full", true);
   }
-  const app::LiveFrame frame = recording.at(std::min(recording.in_s() + tape_s, recording.out_s()));
+  if (deck.mode() == Deck::Mode::Playing) show(deck.advance(dt_s));
+}
+
+void Model::show(const PathFrame& frame) {
   camera.setView(frame.view);
+  if (frame.view.exposure_ev) exposure_ev = frame.view.exposure_ev;
   time_s = frame.time_s;
-  if (recording.in_s() + tape_s >= recording.out_s()) tape = Tape::Idle;
+}
+
+void Model::showResult(app::FlightResult result) {
+  results.add(std::move(result));
+  open[std::size_t(Panel::Results)] = true;
+  showNow = Panel::Results;
 }
 
 void Model::keepEdits() {

@@ -7,26 +7,36 @@
 #include <optional>
 #include <string>
 
+#include "deck.h"
+#include "flight_job.h"
 #include "frame_times.h"
 #include "painter.h"
 #include "welkin/app/edit_history.h"
 #include "welkin/app/fly_camera.h"
-#include "welkin/app/recorder.h"
 #include "welkin/app/settings.h"
 #include "welkin/render/renderer.h"
 #include "welkin/window/render_scale.h"
 
 namespace welkin::window {
 
-enum class Panel { Camera, Scene, Quality, Exposure, Time, Profiler, Memory, LeftOut, Log, Debug };
-inline constexpr std::array<const char*, 10> kPanelNames{"Camera",   "Scene",  "Quality",  "Exposure", "Time",
-                                                        "Profiler", "Memory", "Left out", "Log",   "Debug"};
+enum class Panel { Camera, Scene, Quality, Exposure, Time, Profiler, Memory, LeftOut, Log, Debug, Flight, Results };
+inline constexpr std::array<const char*, 12> kPanelNames{"Camera", "Scene",    "Quality", "Exposure", "Time",   "Profiler",
+                                                         "Memory", "Left out", "Log",     "Debug",    "Flight", "Results"};
+inline constexpr std::array<char, kPanelNames.size()> kPanelKeys{'1', '2', '3', '4', '5', '6', '7', '8', '9', '0', 'F', 'B'};
 
 struct Wanted {                                     // since the last frame
   bool march = false, air = false, output = false;  // what the renderer changes at once
   bool rebuild = false;                             // what needs a new one
   bool picture = false, convergedPicture = false;
   bool saveScene = false, savePath = false;
+  bool endRecording = false, stopFlight = false;
+  std::optional<FlightTask> flight;  // of the tape, as `welkin fly` would
+};
+
+struct Results {  // of flights: measured in this window, or dropped onto it
+  std::vector<app::FlightResult> all;
+  int a = -1, b = -1;  // side by side; -1: none
+  void add(app::FlightResult result);
 };
 
 struct Model {
@@ -42,17 +52,21 @@ struct Model {
 
   app::Settings settings;
   bool settingsChanged = false;
-  enum class Tape { Idle, Recording, Replaying };
-  Tape tape = Tape::Idle;
-  app::Recording recording;
-  double tape_s = 0;  // since the recording, or the replay, began
+  Deck deck;
+  Results results;
+  struct Flight {
+    FlightTask task;
+    FlightJob::Progress progress;
+    bool stopping;
+  };
+  std::optional<Flight> flight;  // that is replayed just now as `welkin fly` does
 
   RenderScale scale;
   app::Size window, picture;
   FrameStats stats;
   FrameTimes times;
   double frameRate = 0;
-  double loading_s = -1;  // for so long a renderer is being made; < 0: none is
+  double loading_s = -1;           // for so long a renderer is being made; < 0: none is
   std::optional<Painted> painted;  // the last picture
   std::string device;
   bool software = false;
@@ -72,7 +86,9 @@ struct Model {
   }
   app::EditHistory<Scene> edits{Scene{}};
   void runTape(double dt_s);  // a recording or a replay goes on
-  void keepEdits();           // what is finished can be undone
+  void show(const PathFrame& frame);
+  void showResult(app::FlightResult result);
+  void keepEdits();  // what is finished can be undone
   void undo();
   void redo();
   // Begins anew with this scene and view.

@@ -12,8 +12,9 @@
 namespace welkin::window {
 namespace {
 
-constexpr std::array<void (*)(Model&), kPanelNames.size()> kPanels{cameraPanel,   scenePanel,  qualityPanel, exposurePanel, timePanel,
-                                                                   profilerPanel, memoryPanel, leftOutPanel, logPanel,      debugPanel};
+constexpr std::array<void (*)(Model&), kPanelNames.size()> kPanels{cameraPanel, scenePanel,    qualityPanel, exposurePanel,
+                                                                   timePanel,   profilerPanel, memoryPanel,  leftOutPanel,
+                                                                   logPanel,    debugPanel,    flightPanel,  resultsPanel};
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
@@ -28,7 +29,7 @@ void sidebar(Model& model) {
     ImGui::PushItemWidth(-ImGui::GetFontSize() * 9);
     for (std::size_t i = 0; i < kPanels.size(); ++i) {
       ImGui::SetNextItemOpen(model.open[i]);
-      const std::string title = fmt::format("{}  {}", (i + 1) % 10, kPanelNames[i]);
+      const std::string title = fmt::format("{}  {}", kPanelKeys[i], kPanelNames[i]);
       model.open[i] = ImGui::CollapsingHeader(title.c_str());
       if (model.showNow == Panel(i)) ImGui::SetScrollHereY(0), model.showNow.reset();
       if (!model.open[i]) continue;
@@ -56,7 +57,11 @@ void status(const Model& model) {
     line += fmt::format("   |   {:.0f} frames/s   {} x {}", model.frameRate, model.picture.width, model.picture.height);
     if (model.scale.scale() < 1)
       line += fmt::format(", {:.0f} % of the window{}", 100 * model.scale.scale(), model.scale.automatic ? " to keep 20 frames/s" : "");
-    if (model.loading_s >= 0)
+    if (model.flight)
+      line += fmt::format("   |   {} {:.0f} %", kFlightTasks[std::size_t(model.flight->task)], 100 * model.flight->progress.fraction);
+    else if (model.deck.mode() == Deck::Mode::Recording)
+      line += fmt::format("   |   recording, {:.0f} s", model.deck.at_s());
+    else if (model.loading_s >= 0)
       line += fmt::format("   |   preparing the scene, {:.1f} s", model.loading_s);
     else if (model.stats.skyProgress < 1)
       line += fmt::format("   |   light of the air {:.0f} %", 100 * model.stats.skyProgress);

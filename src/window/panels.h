@@ -16,5 +16,7 @@ void memoryPanel(Model& model);
 void leftOutPanel(Model& model);
 void logPanel(Model& model);
 void debugPanel(Model& model);
+void flightPanel(Model& model);
+void resultsPanel(Model& model);
 
 }  // namespace welkin::window

@@ -1,5 +1,8 @@
 #include "presenter.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace welkin::window {
 
 void Presenter::show(Canvas& canvas, app::Size window, GLenum between) const {
@@ -10,6 +13,16 @@ void Presenter::show(Canvas& canvas, app::Size window, GLenum between) const {
                          GL_COLOR_BUFFER_BIT, between);
   if (canvas.read) glDeleteSync(canvas.read);
   canvas.read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+void Presenter::showWhole(const gpu::Texture& picture, app::Size window) const {
+  clear(window);
+  const auto& spec = picture.spec();
+  const double scale = std::min(double(window.width) / spec.width, double(window.height) / spec.height);
+  const int width = int(std::lround(spec.width * scale)), height = int(std::lround(spec.height * scale));
+  const int x = (window.width - width) / 2, y = (window.height - height) / 2;
+  glNamedFramebufferTexture(frame_, GL_COLOR_ATTACHMENT0, picture.id(), 0);
+  glBlitNamedFramebuffer(frame_, 0, 0, 0, spec.width, spec.height, x, y + height, x + width, y, GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
 void Presenter::clear(app::Size window) const {

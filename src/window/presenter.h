@@ -13,7 +13,8 @@ class Presenter {
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
   void show(Canvas& picture, app::Size window,
-            GLenum between = GL_LINEAR) const;  // stretched; what is between pixels: GL_LINEAR or GL_NEAREST
+            GLenum between = GL_LINEAR) const;                          // stretched; what is between pixels: GL_LINEAR or GL_NEAREST
+  void showWhole(const gpu::Texture& picture, app::Size window) const;  // at its own shape, in the middle
   void clear(app::Size window) const;
 
  private:

@@ -9,8 +9,10 @@ namespace welkin::window {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // Of the picture that is shown, not of the one that was chosen last.
-nlohmann::ordered_json debugJson(const Model& m) {
+Json debugJson(const Model& m) {
   if (!m.painted || !m.painted->debug) return {{"view", "none"}};
   const DebugNumbers& n = *m.painted->debug;
   return {{"view", kDebugViewNames[std::size_t(n.view)]},
@@ -23,10 +25,28 @@ nlohmann::ordered_json debugJson(const Model& m) {
           {"kinds", n.kinds}};
 }
 
+Json flightJson(const Model& m, const std::vector<FlightShow::Shown>& shown) {
+  constexpr const char* kModes[] = {"idle", "recording", "playing"};
+  const Deck& deck = m.deck;
+  Json out{{"mode", kModes[std::size_t(deck.mode())]},
+           {"frames", deck.tape.frames()},
+           {"in", deck.tape.in()},
+           {"out", deck.tape.out()},
+           {"at_s", deck.at_s()},
+           {"running", m.flight ? kFlightTasks[std::size_t(m.flight->task)] : ""},
+           {"progress", m.flight ? m.flight->progress.fraction : 0.0},
+           {"results", Json::array()},
+           {"a", m.results.a},
+           {"b", m.results.b},
+           {"shown", Json::array()}};
+  for (const auto& result : m.results.all) out["results"].push_back(result.file.string());
+  for (const auto& s : shown) out["shown"].push_back({{"frame", s.frame}, {"view", Json::parse(viewToJson(s.view))}, {"sha256", s.sha256}});
+  return out;
+}
+
 }  // namespace
 
-std::string stateJson(const Model& m, const Counts& c) {
-  using Json = nlohmann::ordered_json;
+std::string stateJson(const Model& m, const Counts& c, const std::vector<FlightShow::Shown>& shown) {
   Json open = Json::array();
   for (std::size_t i = 0; i < m.open.size(); ++i)
     if (m.open[i]) open.push_back(kPanelNames[i]);
@@ -56,6 +76,7 @@ std::string stateJson(const Model& m, const Counts& c) {
                      {"skip_empty", m.scene.quality.skipEmpty},
                      {"budget_bytes", m.scene.quality.budget_bytes}}},
                    {"debug", debugJson(m)},
+                   {"flight", flightJson(m, shown)},
                    {"message", m.message},
                    {"frame_rate", m.frameRate},
                    {"frame_ms", m.times.frame().median()},

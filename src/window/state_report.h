@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "flight_show.h"
 #include "model.h"
 
 namespace welkin::window {
@@ -15,6 +16,6 @@ struct Counts {  // since the window opened
   std::array<std::uint64_t, 8> latency{};  // pictures shown in the frame that read their input, one later, ...
 };
 
-std::string stateJson(const Model& model, const Counts& counts);
+std::string stateJson(const Model& model, const Counts& counts, const std::vector<FlightShow::Shown>& shown);
 
 }  // namespace welkin::window

@@ -11,20 +11,28 @@
 namespace welkin::window {
 namespace {
 
-Result<app::Start> startOf(const ViewOptions& options) {
-  if (options.input.empty())
-    return app::loadStart(app::programFolder() / "scenes" / "earth.json", options.viewName.empty() ? "orbit" : options.viewName);
-  if (!options.viewName.empty()) return app::loadStart(options.input, options.viewName);
-  auto restored = app::restoreFrom(options.input);
-  if (!restored) return restored.error();
-  return std::move(restored->start);
+Result<app::Restored> startOf(const ViewOptions& options) {
+  if (!options.input.empty() && options.viewName.empty()) {
+    auto restored = app::restoreFrom(options.input);
+    if (restored && restored->result)
+      return Error{fmt::format("{}: expected a scene, a picture or a path; a result is dropped onto the window", options.input.string())};
+    return restored;
+  }
+  const bool earth = options.input.empty();
+  auto start = app::loadStart(earth ? app::programFolder() / "scenes" / "earth.json" : options.input,
+                              earth && options.viewName.empty() ? "orbit" : options.viewName);
+  if (!start) return start.error();
+  return app::Restored{app::RestoredKind::Scene, std::move(*start), {}, {}};
 }
 
 Result<void> view(const ViewOptions& options) {
   auto start = startOf(options);
   if (!start) return start.error();
   app::LoadedSettings loaded = app::loadSettings(app::settingsFile());
-  auto window = Window::open(options.common.size.value_or(app::Size{loaded.settings.width, loaded.settings.height}), "Welkin");
+  const app::Settings& kept = loaded.settings;
+  const Placement place = options.common.size ? Placement{*options.common.size, {}, false}
+                                              : Placement{{kept.width, kept.height}, kept.position, kept.maximized};
+  auto window = Window::open(place, "Welkin");
   if (!window) return window.error();
   auto context = gpu::Context::ofCurrent();
   if (!context) return Error{context.error().message + "; `welkin render` draws pictures without a window"};
@@ -43,7 +51,7 @@ void addView(CLI::App& app, app::Action& action) {
   command->footer(
       "Examples:\n  welkin                                        the Earth\n  welkin view scenes/mars.json --size 1280x800\n"
       "  welkin view orbit.png                         back to where a picture was taken\n\nH shows the keys.");
-  command->add_option("SCENE", o->input, "a scene (JSON), or a picture (PNG, EXR) of this program; default: scenes/earth.json");
+  command->add_option("SCENE", o->input, "a scene or a path (JSON), or a picture (PNG, EXR) of this program; default: scenes/earth.json");
   command->add_option("--view", o->viewName, "which view of the scene");
   app::addQualityOptions(*command, o->common);
   command->add_flag("--quiet,-q", o->common.quiet, "no log lines, only warnings and errors");

@@ -6,6 +6,7 @@
 #include "brick_pace.h"
 #include "controls.h"
 #include "file_loader.h"
+#include "flight_show.h"
 #include "interface.h"
 #include "log_lines.h"
 #include "painter.h"
@@ -23,7 +24,7 @@
 namespace welkin::window {
 namespace {
 
-constexpr double kIdleWait_s = 0.03, kLate_s = 0.1, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
+constexpr double kIdleWait_s = 0.03, kMeasuringWait_s = 0.1, kLate_s = 0.1, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
 constexpr double kMostWait_ms = 33;        // for a picture; one that takes longer is shown in a later frame, and the interface goes on
 constexpr std::uint64_t kFirstFrames = 8;  // not among the slowest: the interface's shaders are compiled for them
 constexpr double kSpareDetail = 1.4;       // for the next step of a flight
@@ -37,16 +38,19 @@ bool falseColours(const std::optional<DebugNumbers>& debug) { return debug && de
 
 class Viewer {
  public:
-  Viewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context)
+  Viewer(const ViewOptions& options, app::Settings&& settings, app::Restored&& restored, Window& window, gpu::Context& context)
       : options_(options),
         window_(window),
         context_(context),
         interface_(window),
         painters_{std::make_unique<Painter>(window.hidden(0)), std::make_unique<Painter>(window.hidden(1))},
-        shots_(options.shots, options.common.gpu) {
+        shots_(options.shots, options.common.gpu),
+        flights_(options.common.gpu) {
+    if (!options.state.empty()) flights_.rememberShown();
     model_.device = context.device().renderer;
     model_.software = context.device().software;
-    begin(std::move(start));
+    begin(std::move(restored.start));
+    if (restored.path) loadFlight(model_, std::move(*restored.path));
     model_.settings = std::move(settings);
     interface_.setScale(model_.settings.uiScale);
   }
@@ -54,13 +58,15 @@ class Viewer {
   void run() {
     double last_ms = gpu::wall_ms();
     while (!window_.closing() && !app::stopRequested()) {
-      const Events events = window_.poll(idle_ ? kIdleWait_s : painter().drawing() ? kLate_s : 0);
+      const Events events = window_.poll(flights_.running() ? kMeasuringWait_s : idle_ ? kIdleWait_s : painter().drawing() ? kLate_s : 0);
       const double now_ms = gpu::wall_ms(), dt_s = std::min((now_ms - last_ms) / 1000, kMostStep_s);
       last_ms = now_ms;
       frame(events, now_ms, dt_s);
     }
     if (!options_.common.size) {  // else it was asked for once
-      model_.settings.width = window_.size().width, model_.settings.height = window_.size().height;
+      const Placement place = window_.placement();
+      model_.settings.width = place.size.width, model_.settings.height = place.size.height;
+      model_.settings.position = place.position, model_.settings.maximized = place.maximized;
       keepSettings();
     }
     window_.hide();  // a renderer that is being made, and pictures that are being written, are finished unseen
@@ -80,8 +86,9 @@ class Viewer {
   void frame(const Events& events, double now_ms, double dt_s) {
     for (const Press& press : events.pressed)
       if (!interface_.wantsKeys()) Controls::press(model_, window_, press);
-    controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
-    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.tape != Model::Tape::Idle ||
+    if (!flights_.running()) controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
+    if (interface_.busy() || !events.pressed.empty()) flights_.moveOn();
+    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.deck.mode() != Deck::Mode::Idle ||
         !sameView(model_.view(), last_))
       moved_ms_ = now_ms;
     last_ = model_.view();
@@ -94,7 +101,7 @@ class Viewer {
     const bool minimised = model_.window.width <= 0 || model_.window.height <= 0;
     if (!minimised) show(now_ms, dt_s);
     ++counts_.frames;
-    idle_ = minimised || !model_.painted || (model_.stats.leftOut == "nothing-moves" && !loading_);
+    idle_ = minimised || !model_.painted || flights_.shows(model_.view()) || (model_.stats.leftOut == "nothing-moves" && !loading_);
     if (now_ms - reported_ms_ > 1000 * kStateEvery_s) reported_ms_ = now_ms, report();
   }
 
@@ -103,7 +110,9 @@ class Viewer {
     const double input_ms = gpu::wall_ms();
     const std::optional<double> picture_ms = draw(dt_s);
     const double pictured_ms = gpu::wall_ms();
-    if (model_.painted && model_.painted->canvas)
+    if (flights_.shows(model_.view()))
+      flights_.draw(presenter_, model_.window);
+    else if (model_.painted && model_.painted->canvas)
       presenter_.show(*model_.painted->canvas, model_.window, falseColours(model_.painted->debug) ? GL_NEAREST : GL_LINEAR);
     else
       presenter_.clear(model_.window);
@@ -152,9 +161,18 @@ class Viewer {
   void carryOut() {
     takeLoaded();
     model_.keepEdits();
+    flights_.advance(model_);
     const Wanted wanted = std::exchange(model_.wanted, {});
     bool rebuild = wanted.rebuild;
     if (wanted.saveScene) save("scene", writeScene(model_, folder()));
+    if (wanted.endRecording) {
+      const auto ended = model_.deck.endRecording(model_.scene.name, model_.window.width, model_.window.height);
+      if (!ended) model_.say(ended.error().message, true);
+    }
+    if (wanted.flight && loading_ && !wanted.stopFlight)
+      model_.wanted.flight = wanted.flight;  // once the scene is there: making it would be measured too
+    else if (wanted.flight && !flights_.running())
+      replay(*wanted.flight);
     if (wanted.savePath) save("path", writePath(model_, folder()));
     if (model_.settingsChanged) model_.settingsChanged = false, keepSettings();
     if (wanted.march) order_.march = later_.march = model_.scene.quality;
@@ -169,6 +187,17 @@ class Viewer {
       model_.say("a converged picture is being made");
     }
     for (const auto& note : shots_.news()) model_.say(note.text, note.bad);
+  }
+
+  // As `welkin fly` would: so from a file.
+  void replay(FlightTask task) {
+    std::filesystem::path file = model_.deck.fileOf(sceneToJson(model_.scene));
+    if (file.empty()) {
+      const auto written = writePath(model_, folder());
+      if (!written) return model_.say(written.error().message, true);
+      file = *written;
+    }
+    flights_.begin(model_, task, file, folder());
   }
 
   RenderSettings settings() const {
@@ -231,22 +260,25 @@ class Viewer {
   }
 
   void use(app::Restored restored) {
+    if (restored.result) {
+      model_.say("a result of a flight: " + restored.result->file.filename().string());
+      model_.showResult(std::move(*restored.result));
+      return;
+    }
+    if (restored.path && (flights_.running() || model_.deck.mode() == Deck::Mode::Recording))
+      return model_.say("a flight is loaded once the one that is recorded or replayed has ended", true);
     const auto notes = restored.start.notes;
     begin(std::move(restored.start));
-    if (restored.path) {
-      model_.recording = {};
-      for (std::size_t i = 0; i < restored.path->frames.size(); ++i)
-        model_.recording.add(double(i) * restored.path->timeStep_s, restored.path->frames[i].view, restored.path->frames[i].time_s);
-      model_.tape = Model::Tape::Replaying, model_.tape_s = 0;
-    }
-    model_.say(restored.path ? "a recorded flight of " + oneLine(model_.scene.name, 60) : "restored " + oneLine(model_.scene.name, 60));
+    const bool flight = restored.path.has_value();
+    if (flight) loadFlight(model_, std::move(*restored.path));
+    model_.say(flight ? "a recorded flight of " + oneLine(model_.scene.name, 60) : "restored " + oneLine(model_.scene.name, 60));
     for (const auto& note : notes) model_.say(note, true);
   }
 
   // Orders a picture if none is being drawn, and waits for it, but not for long. If it came: what it took.
   std::optional<double> draw(double dt_s) {
     order_.sinceLast_s += dt_s;
-    if (!painter().drawing()) {
+    if (!painter().drawing() && !flights_.running() && !flights_.shows(model_.view())) {
       const app::Size size = model_.scale.sizeFor(model_.window);
       order_.size = {std::max(size.width, 16), std::max(size.height, 16)};
       order_.view = model_.view();
@@ -283,7 +315,8 @@ class Viewer {
     if (options_.state.empty()) return;
     counts_.seconds = (gpu::wall_ms() - options_.begun_ms) / 1000;
     counts_.glMessages = context_.debugMessages() + painter().glMessages() + other().glMessages();
-    if (auto written = writeFile(options_.state, stateJson(model_, counts_)); !written) log::warn("{}", written.error().message);
+    if (auto written = writeFile(options_.state, stateJson(model_, counts_, flights_.shown())); !written)
+      log::warn("{}", written.error().message);
   }
 
   const ViewOptions& options_;
@@ -296,6 +329,7 @@ class Viewer {
   std::array<std::unique_ptr<Painter>, 2> painters_;  // one's pictures are shown; the other makes the next renderer
   int shown_ = 0;                                     // which
   Screenshots shots_;
+  FlightShow flights_;
   Controls controls_;
   FileLoader files_;
   Counts counts_;
@@ -317,8 +351,8 @@ class Viewer {
 
 }  // namespace
 
-void runViewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context) {
-  Viewer(options, std::move(settings), std::move(start), window, context).run();
+void runViewer(const ViewOptions& options, app::Settings&& settings, app::Restored&& restored, Window& window, gpu::Context& context) {
+  Viewer(options, std::move(settings), std::move(restored), window, context).run();
 }
 
 }  // namespace welkin::window

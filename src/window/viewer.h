@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "welkin/app/options.h"
+#include "welkin/app/restore.h"
 #include "welkin/app/settings.h"
 #include "welkin/gpu/context.h"
 #include "window.h"
@@ -19,6 +20,6 @@ struct ViewOptions {
 };
 
 // Returns when the window was closed, or Ctrl-C was pressed.
-void runViewer(const ViewOptions& options, app::Settings&& settings, app::Start&& start, Window& window, gpu::Context& context);
+void runViewer(const ViewOptions& options, app::Settings&& settings, app::Restored&& restored, Window& window, gpu::Context& context);
 
 }  // namespace welkin::window

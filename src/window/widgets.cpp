@@ -12,12 +12,12 @@ namespace {
 std::string g_finished;
 std::map<std::string, std::array<float, 4>> g_places;
 
+}  // namespace
+
 void remember(const char* label) {
   const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
   if (ImGui::IsItemVisible()) g_places[label] = {a.x, a.y, b.x, b.y};
 }
-
-}  // namespace
 
 std::string takeFinishedEdit() { return std::exchange(g_finished, {}); }
 const std::map<std::string, std::array<float, 4>>& fieldPlaces() { return g_places; }

@@ -29,6 +29,7 @@ std::string takeFinishedEdit();                                    // label of t
 void markEdit(const char* label);                                  // by a button
 bool finishedEditIs(const std::string& label);                     // the same, and it stays
 const std::map<std::string, std::array<float, 4>>& fieldPlaces();  // of fields in the last frame: x0, y0, x1, y1; for tests
+void remember(const char* label);                                  // place of the item before
 void beginFields();                                                // of a frame
 void explain(const char* text);                                    // of the item before, under the mouse
 void line(const std::string& name, const std::string& value);

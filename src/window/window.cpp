@@ -27,23 +27,39 @@ void sayWhatIsNeeded() {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
 }
 
+std::vector<Area> areas() {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  std::vector<Area> out(std::size_t(std::max(count, 0)));
+  for (std::size_t i = 0; i < out.size(); ++i) glfwGetMonitorWorkarea(monitors[i], &out[i].x, &out[i].y, &out[i].width, &out[i].height);
+  std::erase_if(out, [](const Area& a) { return a.width <= 0 || a.height <= 0; });
+  return out;
+}
+
 }  // namespace
 
-Result<std::unique_ptr<Window>> Window::open(app::Size size, const std::string& title) {
+Result<std::unique_ptr<Window>> Window::open(const Placement& wanted, const std::string& title) {
   glfwSetErrorCallback(onError);
   if (!glfwInit()) return noWindow("no display");
   auto made = std::unique_ptr<Window>(new Window);
   sayWhatIsNeeded();
-  made->window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
-  if (!made->window_) return noWindow("OpenGL 4.5 is needed");
+  // Where a window lay is kept in screen coordinates; another size is meant for a monitor of scale 1.
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, wanted.position ? GLFW_FALSE : GLFW_TRUE);
+  glfwWindowHint(GLFW_MAXIMIZED, wanted.maximized ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  const Placement place = wanted.position ? onto(areas(), wanted) : wanted;
+  made->window_ = glfwCreateWindow(place.size.width, place.size.height, title.c_str(), nullptr, nullptr);
+  if (!made->window_) return noWindow("OpenGL 4.5 is needed");
+  glfwWindowHint(GLFW_MAXIMIZED, GLFW_FALSE);
   for (auto& hidden : made->hidden_)
     if (!(hidden = glfwCreateWindow(1, 1, "", nullptr, made->window_))) return noWindow("more than one context is needed");
+  if (place.position) glfwSetWindowPos(made->window_, place.position->first, place.position->second);
+  glfwShowWindow(made->window_);
+  made->normal_ = place;
   glfwMakeContextCurrent(made->window_);
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(made->window_, made.get());
@@ -69,7 +85,23 @@ Events Window::poll(double mostWait_s) {
     glfwWaitEventsTimeout(mostWait_s);
   else
     glfwPollEvents();
+  if (glfwGetTime() - remembered_s_ > 1) rememberPlace();
   return std::exchange(events_, {});
+}
+
+void Window::rememberPlace() {
+  remembered_s_ = glfwGetTime();
+  if (glfwGetWindowMonitor(window_) || glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) || glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) return;
+  int x = 0, y = 0;
+  glfwGetWindowPos(window_, &x, &y);
+  glfwGetWindowSize(window_, &normal_.size.width, &normal_.size.height);
+  normal_.position = std::pair(x, y);
+}
+
+Placement Window::placement() {
+  rememberPlace();
+  normal_.maximized = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
+  return normal_;
 }
 
 bool Window::closing() const { return glfwWindowShouldClose(window_); }
@@ -81,12 +113,6 @@ void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, ti
 app::Size Window::pixels() const {
   app::Size size{0, 0};
   if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) glfwGetFramebufferSize(window_, &size.width, &size.height);
-  return size;
-}
-
-app::Size Window::size() const {
-  app::Size size;
-  glfwGetWindowSize(window_, &size.width, &size.height);
   return size;
 }
 

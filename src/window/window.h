@@ -8,6 +8,7 @@
 
 #include "welkin/app/options.h"
 #include "welkin/core/result.h"
+#include "welkin/window/placement.h"
 
 struct GLFWwindow;
 
@@ -26,7 +27,7 @@ struct Events {
 class Window {
  public:
   // The context is current in this thread. Fails in one line: no display, or no OpenGL 4.5.
-  static Result<std::unique_ptr<Window>> open(app::Size size, const std::string& title);
+  static Result<std::unique_ptr<Window>> open(const Placement& wanted, const std::string& title);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -35,7 +36,7 @@ class Window {
   bool closing() const;
   void close();
   void hide();
-  app::Size size() const;    // in screen coordinates
+  Placement placement();     // to open the next one there; where it lay before it was maximised or covered the screen
   app::Size pixels() const;  // 0 x 0 while minimised
   double scale() const;      // of letters and lines on this monitor
   void setTitle(const std::string& title);
@@ -48,11 +49,14 @@ class Window {
 
  private:
   Window() = default;
+  void rememberPlace();
   GLFWwindow* window_ = nullptr;
   std::array<GLFWwindow*, 2> hidden_{};
   Events events_;
   bool captured_ = false;
   int place_[4] = {};  // before full screen: x, y, width, height
+  Placement normal_;   // while it is neither maximised nor full screen nor minimised, a second ago at most
+  double remembered_s_ = -1;
 };
 
 }  // namespace welkin::window

@@ -7,7 +7,16 @@
 namespace welkin::window {
 namespace {
 
-constexpr double kPathStep_s = 1.0 / 30;
+// Is this scene what its file says? Its exposure does not matter where the frames have their own.
+bool asInItsFile(const Scene& scene, bool exposureMatters) {
+  if (app::kindOfName(scene.file) != app::PictureKind::None) return false;
+  auto file = loadScene(scene.file);
+  if (!file) return false;
+  Scene now = scene;
+  now.views = file->views;
+  if (!exposureMatters) now.output.exposure_ev = file->output.exposure_ev;
+  return sceneToJson(now) == sceneToJson(*file);
+}
 
 }  // namespace
 
@@ -21,13 +30,21 @@ Result<std::filesystem::path> writeScene(const Model& model, const std::filesyst
   return file;
 }
 
-Result<std::filesystem::path> writePath(const Model& model, const std::filesystem::path& folder) {
-  auto path = model.recording.path(kPathStep_s);
-  if (!path) return path.error();
-  path->name = model.scene.name;
-  path->width = model.window.width, path->height = model.window.height;
-  const bool changed = model.edits.canUndo() || app::kindOfName(model.scene.file) != app::PictureKind::None;
-  return app::saveRecorded(std::move(*path), model.scene, changed, folder, "welkin-path");
+Result<std::filesystem::path> writePath(Model& model, const std::filesystem::path& folder) {
+  auto path = model.deck.tape.path();
+  if (path.frames.empty()) return Error{"nothing is recorded"};
+  const bool changed = !asInItsFile(model.scene, !path.frames.front().view.exposure_ev);
+  auto file = app::saveRecorded(std::move(path), model.scene, changed, folder, "welkin-path");
+  if (file) model.deck.saved(*file, sceneToJson(model.scene));
+  return file;
+}
+
+void loadFlight(Model& model, FlightPath path) {
+  const bool same = asInItsFile(model.scene, !path.frames.front().view.exposure_ev);
+  const std::filesystem::path file = path.file;
+  model.deck.load(std::move(path));
+  model.deck.saved(same ? file : std::filesystem::path(), sceneToJson(model.scene));
+  model.deck.play();
 }
 
 }  // namespace welkin::window

@@ -1,5 +1,6 @@
 #pragma once
 // A GPU that counts instead of drawing: it keeps the node buffer and which bricks are generated, and answers as late as it is told.
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <limits>
@@ -35,7 +36,8 @@ class FakeGpu {
         return "light for a brick that holds something else";
       if (!lit.insert(job.brick).second) return "a brick lit twice in a frame";
     }
-    if (std::string wrong = descend(lit, edits.dirty); !wrong.empty()) return wrong;
+    for (const std::uint32_t brick : lit) litAt_[brick] = frame;
+    if (std::string wrong = descend(lit, edits.dirty, frame); !wrong.empty()) return wrong;
     for (const BrickJob& job : edits.generate) {
       if (job.brick == 0 || job.brick >= settings_.brickCapacity) return "a job for a brick that is none";
       if (shown_.contains(job.brick)) return "a brick generated over one that rays see";
@@ -86,11 +88,29 @@ class FakeGpu {
     return {shared::nodeCorner(p, at), at};
   }
   const std::map<std::uint32_t, BrickJob>& shown() const { return shown_; }
+  // Of all bricks: how many frames a neighbour towards the sun has been there, at most, that its light has not seen.
+  std::uint64_t latestLight(glm::ivec3 toSun, std::uint64_t frame) const {
+    std::map<std::array<std::uint64_t, 4>, std::uint32_t> at;
+    for (const auto& [brick, job] : shown_) at[{job.level, job.corner.x, job.corner.y, job.corner.z}] = brick;
+    std::uint64_t lag = 0;
+    for (const auto& [brick, job] : shown_) {
+      const std::uint64_t size = 1ull << (32 - job.level);
+      for (int mask = 1; mask < 8; ++mask) {
+        const glm::ivec3 o = toSun * glm::ivec3(mask & 1, (mask >> 1) & 1, mask >> 2);
+        const auto found = at.find({job.level, job.corner.x + o.x * size, job.corner.y + o.y * size, job.corner.z + o.z * size});
+        if (found != at.end() && cameAt_.at(found->second) > litAt_.at(brick)) lag = std::max(lag, frame - cameAt_.at(found->second));
+      }
+    }
+    return lag;
+  }
+  bool allLitSinceTheLastCame() const {
+    return std::all_of(shown_.begin(), shown_.end(), [this](const auto& s) { return litAt_.at(s.first) >= lastCame_; });
+  }
   std::size_t reachableGroups() const { return reachableGroups_; }
 
  private:
   // Walks all that rays can reach: bricks are generated for that very node, owned once, lit when they appeared, changes are dirty.
-  std::string descend(const std::set<std::uint32_t>& lit, const std::vector<DirtyNode>& dirty) {
+  std::string descend(const std::set<std::uint32_t>& lit, const std::vector<DirtyNode>& dirty, std::uint64_t frame) {
     std::map<std::uint32_t, BrickJob> now;
     std::set<std::uint32_t> groups;
     reachableGroups_ = 0;
@@ -101,6 +121,7 @@ class FakeGpu {
     for (const auto& [brick, job] : now) {
       const auto old = shown_.find(brick);
       const bool fresh = old == shown_.end() || old->second.corner != job.corner || old->second.level != job.level;
+      if (fresh) cameAt_[brick] = lastCame_ = frame;
       if (fresh && !lit.contains(brick)) return "a brick appeared and was not lit";
       if (fresh && !covered(job, dirty)) return "a brick appeared and no node above it is dirty";
     }
@@ -179,6 +200,8 @@ class FakeGpu {
   std::map<std::array<std::uint32_t, 4>, float> maxima_;
   std::map<std::array<std::uint32_t, 4>, bool> empty_, emptyNow_;  // by address
   std::deque<std::pair<std::uint64_t, BrickResult>> due_;
+  std::map<std::uint32_t, std::uint64_t> litAt_, cameAt_;  // frames, by brick
+  std::uint64_t lastCame_ = 0;
   std::size_t reachableGroups_ = 0;
 };
 

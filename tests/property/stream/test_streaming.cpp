@@ -9,6 +9,8 @@ namespace welkin::test {
 namespace {
 
 constexpr double kRadius_m = 6'371'000;
+const glm::dvec3 kToSun(0.6, -0.3, 0.7);
+const glm::ivec3 kToSunSigns(1, -1, 1);
 
 struct World {
   RootFrame root = RootFrame::enclosing(kRadius_m, 9000);
@@ -22,7 +24,7 @@ struct World {
 
   World(std::uint32_t seed, std::uint32_t depth, std::uint32_t bricks, std::uint32_t groups, double limit = 0)
       : source(root, 1000, 9000, 9, seed),
-        settings{depth, bricks, groups, limit},
+        settings{depth, bricks, groups, limit, {}, kToSun},
         state(source, root, settings),
         gpu(source, root, settings),
         random(seed) {}
@@ -170,6 +172,24 @@ TEST_P(Flight, AColdStartPromisesOnlyWhatIsThere) {
   EXPECT_EQ(missing, 0);
   EXPECT_LT(least, 0.1);  // only the root
   EXPECT_GT(most, 4);     // and then a lot
+}
+
+// Bricks come few at a time and in any order; each one's light is that of the tree as it is in the end.
+TEST_P(Flight, LightFollowsWhatComesTowardsTheSun) {
+  World w(GetParam(), 13, 3000, 3000);
+  const SelectionCamera camera = cameraAt(0.3, 0.1, 6000, 0, -0.3);
+  std::uint64_t lag = 0, lit = 0, generated = 0;
+  for (int i = 0; i < 400 && !w.last.stats.settled; ++i) {
+    w.step(camera, 40);
+    if (HasFatalFailure()) return;
+    lag = std::max(lag, w.gpu.latestLight(kToSunSigns, w.frame - 1));
+    lit += w.last.light.size(), generated += w.last.generate.size();
+  }
+  ASSERT_TRUE(w.last.stats.settled);
+  EXPECT_LT(lag, 6u);  // frames, as long as it waits for others that come with it
+  EXPECT_GT(lag, 0u);  // else nothing came out of order, and this tests nothing
+  EXPECT_TRUE(w.gpu.allLitSinceTheLastCame());
+  EXPECT_LT(lit, 5 * generated);  // first, for neighbours, at leisure while it refines, and once in the end
 }
 
 TEST_P(Flight, AStaticSceneIsSilentAndATremblingCameraNearlySo) {

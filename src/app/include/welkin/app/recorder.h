@@ -24,20 +24,14 @@ class Recording {
   const std::vector<LiveFrame>& frames() const { return frames_; }
   double duration_s() const { return frames_.empty() ? 0 : frames_.back().at_s - frames_.front().at_s; }
 
-  // In and out points, seconds from the first frame; kept within the recording and in order. Nothing is thrown away.
-  void setCut(double in_s, double out_s);
-  double in_s() const { return in_s_; }
-  double out_s() const { return out_s_ < 0 ? duration_s() : out_s_; }
-
-  // The frame at a time from the first one, between two frames if need be; to scrub by. Not of an empty recording.
+  // The frame at a time from the first one, between two frames if need be. Not of an empty recording.
   LiveFrame at(double time_s) const;
-  // From the in point to the out point, a frame every timeStep_s. The path's scene, size and name are the caller's to fill in.
+  // A frame every timeStep_s. The path's scene, size and name are the caller's to fill in.
   // Errors: nothing recorded, more than kMaxPathFrames.
   Result<FlightPath> path(double timeStep_s) const;
 
  private:
   std::vector<LiveFrame> frames_;
-  double in_s_ = 0, out_s_ = -1;  // -1: the end
 };
 
 // Between two views, 0..1: direction from the planet's centre along the great circle, distance in proportion, so never below the lower one;

@@ -23,7 +23,9 @@ struct ReportContext {
   std::map<std::string, std::string> data;  // file -> sha256, or "missing"
   // Settings that the numbers depend on.
   int width = 0, height = 0, depth = 0;
-  double step = 0, detail = 0;
+  double step = 0, detail = 0, spread = 0;
+  std::string integrator, stepRule;  // by name
+  bool skipEmpty = true;
   std::uint32_t seed = 0, bricksPerFrame = 0;
   std::uint64_t budget_bytes = 0;
   bool deterministic = true;

@@ -29,6 +29,7 @@ struct StreamSettings {
   std::uint32_t groupCapacity = 0;   // groups of eight nodes in the node pool, the root's group included
   double detailLimit = 0;            // greatest node-edges-per-distance K; 0: no limit but the budget
   std::optional<OpaqueDeck> deck = {};  // what is below it is not refined while the camera is above
+  glm::dvec3 toSun{0};                  // planet frame: bricks are lit again when neighbours come on this side; 0: never
 };
 
 // What the GPU found when it generated a brick: extinction as a fraction of the source's maximum, over the stored corners.
