@@ -13,8 +13,8 @@ inline constexpr std::array<const char*, 9> kDebugViewNames{"none",    "steps", 
 
 // What a view's values are.
 struct DebugTopic {
-  const char* what;          // of a pixel
-  const char* unit;          // empty: a share
+  const char* what = "";     // of a pixel
+  const char* unit = "";     // empty: a share
   double low = 0, high = 0;  // ends of the scale; equal: there is none
   bool logarithmic = false;
   unsigned kinds = 0;  // values are numbers of kinds, 0 to this; 0: they are not
