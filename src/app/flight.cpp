@@ -71,7 +71,10 @@ class Replay {
     return frames / (frames + kConvergedFrames * double(options_.qualityFrames.size()));
   }
 
-  double sinceLast_s(int frame) const { return frame > plan_.first ? pose(frame).time_s - pose(frame - 1).time_s : plan_.path.timeStep_s; }
+  // The eye adapts in the flight's time: the scene's may stand still, or run a thousand times as fast.
+  double sinceLast_s(int frame) const {
+    return plan_.path.timeStep_s > 0 || frame == plan_.first ? plan_.path.timeStep_s : pose(frame).time_s - pose(frame - 1).time_s;
+  }
 
   void describe() {
     report_.context = describeRun(plan_.scene, plan_.size);

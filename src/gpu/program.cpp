@@ -1,5 +1,6 @@
 #include "welkin/gpu/program.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -103,7 +104,7 @@ thread_local std::shared_ptr<ProgramPool> t_pool;
 void usePool(std::shared_ptr<ProgramPool> pool) { t_pool = std::move(pool); }
 
 GLuint ProgramPool::take(const std::string& key) {
-  const auto found = free_.find(key);
+  const auto found = std::find_if(free_.begin(), free_.end(), [&](const auto& entry) { return entry.first == key; });
   if (found == free_.end()) return 0;
   const GLuint id = found->second;
   free_.erase(found);
@@ -111,7 +112,10 @@ GLuint ProgramPool::take(const std::string& key) {
 }
 
 void ProgramPool::give(const std::string& key, GLuint id) {
-  free_.emplace(key, id);
+  free_.emplace_back(key, id);
+  if (free_.size() <= kMost) return;
+  glDeleteProgram(free_.front().second);
+  free_.erase(free_.begin());
 }
 
 Result<Program> Program::compute(const std::string& path, const Defines& defines) {

@@ -555,9 +555,12 @@ Result<void> Renderer::resize(int width, int height) {
   r.settings.width = width, r.settings.height = height;
   r.shown.reset(), r.stillFrames = 0, r.marchedFrames = 0;
   if (auto made = r.composite->resize(width, height); !made) return made;
-  if (r.debug)
-    if (auto made = r.debug->resize(r.account, width, height); !made) return made;
-  return r.clouds ? r.clouds->resize(r.account, width, height) : Result<void>{};
+  if (r.clouds)
+    if (auto made = r.clouds->resize(r.account, width, height); !made) return made;
+  if (!r.debug) return {};
+  auto made = r.debug->resize(r.account, width, height);
+  if (!made) r.debug.reset(), r.debugDrawn = false;  // the picture itself goes on
+  return made;
 }
 
 const gpu::Texture& Renderer::shown() const { return impl_->debugDrawn ? impl_->debug->picture() : impl_->composite->display(); }

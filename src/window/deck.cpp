@@ -19,9 +19,9 @@ void Deck::record() {
 Result<void> Deck::endRecording(const std::string& name, int width, int height) {
   mode_ = Mode::Idle;
   auto path = recording_.path(kStep_s);
-  recording_ = {};
   at_s_ = 0;
   if (!path) return path.error();
+  recording_ = {};
   path->name = name;
   path->width = width, path->height = height;
   path->warmUp = kWarmUp;

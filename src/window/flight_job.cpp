@@ -42,7 +42,12 @@ void FlightJob::begin(FlightTask task, const fs::path& path, const fs::path& oth
   progress_ = {0, 0, "reading the path"};
   begun_ms_ = gpu::wall_ms();
   thread_ = std::thread([this, path, otherwise, gpu] {
-    Done done = work(path, otherwise, gpu);
+    Done done{task_, true, {}, false, {}};
+    try {
+      done = work(path, otherwise, gpu);
+    } catch (const std::exception& e) {
+      done.said = oneLine(e.what());
+    }
     const std::lock_guard lock(mutex_);
     done_ = std::move(done);
     glfwPostEmptyEvent();
@@ -57,7 +62,9 @@ FlightJob::Done FlightJob::work(const fs::path& path, const fs::path& otherwise,
   };
   app::FlightOptions options;
   options.path = path;
-  options.out = fs::temp_directory_path();  // nothing is written there
+  std::error_code none;
+  options.out = fs::temp_directory_path(none);  // nothing is written there
+  if (none) options.out = otherwise;
   options.every = 0;
   options.common.gpu = gpu;
   options.command = "welkin view, panel Flight";

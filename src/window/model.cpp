@@ -22,7 +22,8 @@ void Model::start(Scene begun, const View& view) {
   home = view;
   camera.setPlanetRadius(scene.planet.radius_m);
   camera.setView(view);
-  wanted = {};
+  wanted.march = wanted.air = wanted.output = false;
+  wanted.flight.reset();
   wanted.rebuild = true;
 }
 
@@ -82,8 +83,8 @@ void Model::show(const Scene& other) {
                        other.quality.depth != now.quality.depth || other.quality.seed != now.quality.seed;
   scene = other;
   exposure_ev = scene.output.exposure_ev;
-  wanted.rebuild = rebuild;
-  wanted.march = wanted.output = !rebuild;
+  wanted.rebuild |= rebuild;
+  if (!rebuild) wanted.march = wanted.output = true;
 }
 
 void Model::say(const std::string& text, bool bad) {

@@ -133,7 +133,7 @@ Painted Painter::paint(const Order& order) {
   if (order.keep)
     painted.kept = {renderer_->image(),
                     app::stateOf(*renderer_, order.view, painted.stats.exposure_ev, painted.size, order.time_s, false, {})};
-  if (renderer_->debugView() != DebugView::None) painted.debug = debugNumbers(debug_, renderer_->debugValues());
+  if (renderer_->debugView() != DebugView::None) painted.debug = debugNumbers(renderer_->debugView(), renderer_->debugValues());
   painted.shownDetail = renderer_->shownDetail(order.view);
   painted.plan = renderer_->plan();
   painted.memory = renderer_->memory().byName();

@@ -21,7 +21,10 @@ Screenshots::Screenshots(std::filesystem::path folder, std::string gpu)
     : folder_(folder.empty() ? std::filesystem::path(".") : std::move(folder)), gpu_(std::move(gpu)), thread_([this] { work(); }) {}
 
 Screenshots::~Screenshots() {
-  stop_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
   more_.notify_one();
   thread_.join();
 }

@@ -25,7 +25,8 @@ namespace welkin::window {
 namespace {
 
 constexpr double kIdleWait_s = 0.03, kMeasuringWait_s = 0.1, kLate_s = 0.1, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
-constexpr double kMostWait_ms = 33;        // for a picture; one that takes longer is shown in a later frame, and the interface goes on
+constexpr double kMostWait_ms = 28;  // for a picture; one that takes longer is shown in a later frame, and the interface goes on
+constexpr double kLeastWait_ms = 5;  // for one that is late, or while a renderer is made and both cores are busy
 constexpr std::uint64_t kFirstFrames = 8;  // not among the slowest: the interface's shaders are compiled for them
 constexpr double kSpareDetail = 1.4;       // for the next step of a flight
 
@@ -165,21 +166,25 @@ class Viewer {
     const Wanted wanted = std::exchange(model_.wanted, {});
     bool rebuild = wanted.rebuild;
     if (wanted.saveScene) save("scene", writeScene(model_, folder()));
+    bool savePath = wanted.savePath;
     if (wanted.endRecording) {
       const auto ended = model_.deck.endRecording(model_.scene.name, model_.window.width, model_.window.height);
-      if (!ended) model_.say(ended.error().message, true);
+      if (!ended) savePath = false, model_.say(ended.error().message, true);
     }
-    if (wanted.flight && loading_ && !wanted.stopFlight)
-      model_.wanted.flight = wanted.flight;  // once the scene is there: making it would be measured too
-    else if (wanted.flight && !flights_.running())
-      replay(*wanted.flight);
-    if (wanted.savePath) save("path", writePath(model_, folder()));
+    if (wanted.flight && !wanted.stopFlight) {
+      if (loading_)
+        model_.wanted.flight = wanted.flight;  // once the scene is there: making it would be measured too
+      else if (!flights_.running())
+        replay(*wanted.flight);
+    }
+    if (savePath) save("path", writePath(model_, folder()));
     if (model_.settingsChanged) model_.settingsChanged = false, keepSettings();
     if (wanted.march) order_.march = later_.march = model_.scene.quality;
     if (wanted.output) order_.output = later_.output = model_.scene.output;
     if (wanted.air) order_.air = later_.air = model_.scene;
     if (wanted.picture) keep_ = true;
-    if (rebuild || std::exchange(airRefused_, false)) make();
+    rebuild |= std::exchange(airRefused_, false);
+    if (rebuild) make();
     if (auto made = other().made()) take(*made);
     model_.loading_s = loading_ ? (gpu::wall_ms() - makeBegun_ms_) / 1000 : -1;
     if (wanted.convergedPicture) {
@@ -265,8 +270,9 @@ class Viewer {
       model_.showResult(std::move(*restored.result));
       return;
     }
-    if (restored.path && (flights_.running() || model_.deck.mode() == Deck::Mode::Recording))
-      return model_.say("a flight is loaded once the one that is recorded or replayed has ended", true);
+    if (flights_.running() || model_.deck.mode() == Deck::Mode::Recording)
+      return model_.say("files are loaded once the flight that is recorded or replayed has ended", true);
+    model_.deck.stop();
     const auto notes = restored.start.notes;
     begin(std::move(restored.start));
     const bool flight = restored.path.has_value();
@@ -290,16 +296,17 @@ class Viewer {
       painter().draw(std::exchange(order_, {}));
       ordered_ = counts_.frames;
     }
-    auto painted = painter().take(kMostWait_ms);
-    if (!painted || !painted->canvas) return {};  // before the first renderer is there, an empty one
+    auto painted = painter().take(loading_ || ordered_ != counts_.frames ? kLeastWait_ms : kMostWait_ms);
+    if (!painted) return {};
+    for (const auto& failed : painted->failed) model_.say(failed, true);
+    airRefused_ |= painted->airRefused;
+    if (painted->kept) keep_ = false, shots_.takeAsSeen(std::move(painted->kept->image), std::move(painted->kept->state));
+    if (!painted->canvas) return {};  // before the first renderer is there, an empty one
     model_.stats = painted->stats;
     if (painted->size.width != model_.picture.width || painted->size.height != model_.picture.height) ++counts_.resizes;
     model_.picture = painted->size;
-    for (const auto& failed : painted->failed) model_.say(failed, true);
     if (!std::exchange(told_, true))
       for (const auto& note : painted->notes) model_.say(note, true);
-    airRefused_ = painted->airRefused;
-    if (painted->kept) keep_ = false, shots_.takeAsSeen(std::move(painted->kept->image), std::move(painted->kept->state));
     ++counts_.pictures;
     ++counts_.latency[std::min<std::size_t>(counts_.frames - ordered_, counts_.latency.size() - 1)];
     counts_.nanPixels += model_.stats.counters.nanPixels;

@@ -23,11 +23,12 @@ Result<std::string> loadShaderSource(const std::string& path, const Defines& def
 // deleted in one context while another has it bound is a crash at the next dispatch (Mesa 22.3).
 class ProgramPool {
  public:
+  static constexpr std::size_t kMost = 128;  // two renderers' and some variants; of more, the ones given first are deleted
   GLuint take(const std::string& key);  // 0: there is none
   void give(const std::string& key, GLuint id);
 
  private:
-  std::multimap<std::string, GLuint> free_;
+  std::vector<std::pair<std::string, GLuint>> free_;  // in the order in which they were given
 };
 // From now on this thread's programs come from there and go back there. None: they are made and deleted.
 void usePool(std::shared_ptr<ProgramPool> pool);
