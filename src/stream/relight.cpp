@@ -27,8 +27,7 @@ bool isLit(const Tree& tree, NodeIndex node) {
 
 }  // namespace
 
-Relight::Relight(glm::dvec3 toSun, std::uint32_t brickCapacity)
-    : away_(-glm::sign(toSun)), bricks_(brickCapacity) {}
+Relight::Relight(glm::dvec3 toSun, std::uint32_t brickCapacity) : away_(-glm::sign(toSun)), bricks_(brickCapacity) {}
 
 void Relight::lit(const Tree& tree, std::span<const NodeIndex> nodes, std::uint64_t step, bool soon) {
   if (nodes.empty() || away_ == glm::ivec3(0)) return;
@@ -45,7 +44,8 @@ void Relight::behind(const Tree& tree, NodeIndex node, std::uint64_t step) {
   const std::int64_t size = std::int64_t(1) << (32u - at.level), end = std::int64_t(1) << 32u;
   for (int mask = 1; mask < 8; ++mask) {
     const glm::ivec3 offset = away_ * glm::ivec3(mask & 1, (mask >> 1) & 1, mask >> 2);
-    if ((offset.x != 0) != ((mask & 1) != 0) || (offset.y != 0) != ((mask & 2) != 0) || (offset.z != 0) != ((mask & 4) != 0)) continue;  // no sun along it
+    if ((offset.x != 0) != ((mask & 1) != 0) || (offset.y != 0) != ((mask & 2) != 0) || (offset.z != 0) != ((mask & 4) != 0))
+      continue;  // no sun along it
     const glm::i64vec3 corner = glm::i64vec3(at.corner) + glm::i64vec3(offset) * size;
     if (glm::any(glm::lessThan(corner, glm::i64vec3(0))) || glm::any(glm::greaterThanEqual(corner, glm::i64vec3(end)))) continue;
     const auto neighbour = find(tree, glm::uvec3(corner), at.level);

@@ -32,12 +32,12 @@ class Relight {
   };
   struct Brick {
     std::uint64_t lit = 0;  // step; the first is 1
-    bool waits = false;  // in due_
+    bool waits = false;     // in due_
   };
-  glm::ivec3 away_;  // signs
+  glm::ivec3 away_;      // signs
   std::deque<Due> due_;  // in order of their steps
   std::vector<Brick> bricks_;
-  std::uint64_t since_ = 0;  // the last step in which bricks came
+  std::uint64_t since_ = 0;                 // the last step in which bricks came
   std::uint32_t cursor_ = 0, unswept_ = 0;  // the next brick to look at; how many are left to look at
 };
 

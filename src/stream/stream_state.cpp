@@ -183,7 +183,8 @@ void StreamState::Impl::writeOut(FrameEdits& edits, bool snap, bool idle, std::u
     const NodeAddress at = tree.address(node);
     if (!covered) edits.dirty.push_back({at.corner, at.level});
   }
-  std::erase_if(changes.shown, [&](NodeIndex node) { return !reachable(node) || tree.node(node).brick.isZero() || tree.node(node).pending; });
+  std::erase_if(changes.shown,
+                [&](NodeIndex node) { return !reachable(node) || tree.node(node).brick.isZero() || tree.node(node).pending; });
   for (const NodeIndex node : changes.shown) {
     const NodeAddress at = tree.address(node);
     edits.light.push_back({tree.node(node).brick.value, at.corner, at.level});
@@ -216,8 +217,9 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
   if (!planted) plant(edits);
   receive(input.results);
   motion.advance(input.camera, input.snap);
-  const double limit = input.detailLimit > 0 ? std::min(input.detailLimit, settings.detailLimit > 0 ? settings.detailLimit : kGreatestDetail)
-                                             : settings.detailLimit;
+  const double limit = input.detailLimit > 0
+                           ? std::min(input.detailLimit, settings.detailLimit > 0 ? settings.detailLimit : kGreatestDetail)
+                           : settings.detailLimit;
   if (limit != selectionSettings.detailLimit) selectionSettings.detailLimit = limit, selectionStale = true;
   const bool work = selectionStale || motion.changed() || !input.results.empty();
   if (work) selectionStale = !reselect();

@@ -25,8 +25,8 @@ namespace welkin::window {
 namespace {
 
 constexpr double kIdleWait_s = 0.03, kMeasuringWait_s = 0.1, kLate_s = 0.1, kStateEvery_s = 0.5, kMostStep_s = 0.25, kRest_ms = 700;
-constexpr double kMostWait_ms = 28;  // for a picture; one that takes longer is shown in a later frame, and the interface goes on
-constexpr double kLeastWait_ms = 5;  // for one that is late, or while a renderer is made and both cores are busy
+constexpr double kMostWait_ms = 28;        // for a picture; one that takes longer is shown in a later frame, and the interface goes on
+constexpr double kLoadingWait_ms = 5;      // while a renderer is made the processor has much to do
 constexpr std::uint64_t kFirstFrames = 8;  // not among the slowest: the interface's shaders are compiled for them
 constexpr double kSpareDetail = 1.4;       // for the next step of a flight
 
@@ -296,7 +296,7 @@ class Viewer {
       painter().draw(std::exchange(order_, {}));
       ordered_ = counts_.frames;
     }
-    auto painted = painter().take(loading_ || ordered_ != counts_.frames ? kLeastWait_ms : kMostWait_ms);
+    auto painted = painter().take(loading_ ? kLoadingWait_ms : kMostWait_ms);
     if (!painted) return {};
     for (const auto& failed : painted->failed) model_.say(failed, true);
     airRefused_ |= painted->airRefused;
