@@ -28,7 +28,7 @@ def main():
             if options.keys:
                 window.key(*options.keys.split(","))
             end = time.time() + options.seconds
-            while time.time() < end and not ((window.fresh() or {}).get("settled") and window.state()["frame_rate"] < 40):
+            while time.time() < end and not ((window.fresh() or {}).get("settled") and time.time() > end - options.seconds + 25):
                 time.sleep(1)
             window.capture(options.output)
             print({k: window.state()[k] for k in ("picture", "scale", "settled", "bricks_to_come", "frame_rate")})

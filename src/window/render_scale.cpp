@@ -20,6 +20,7 @@ app::Size RenderScale::sizeFor(app::Size window) const {
 void RenderScale::frame(double ms, bool rest) {
   if (automatic && rest != rest_) {
     rest_ = rest, frames_ = 0;
+    std::swap(tries_, otherTries_);  // what failed while a tree was made says nothing of a rest
     if (rest)
       moving_ = step_;
     else if (moving_ != step_) {

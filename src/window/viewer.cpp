@@ -144,18 +144,21 @@ class Viewer {
 
   // frame_ms: the picture's and the interface's, whether they were one after the other or not.
   void timed(double frame_ms, const std::map<std::string, double>& parts_ms) {
-    if (model_.stats.leftOut != "nothing-moves") model_.scale.frame(frame_ms, rests());
+    // A picture that is left as it is may still get larger, but not smaller: the last one drawn was the first of its size, and so a slow
+    // one.
+    const bool drawn = model_.stats.leftOut != "nothing-moves";
+    if (drawn) drawn_ms_ = frame_ms;
+    double cost_ms = drawn ? frame_ms : std::min(drawn_ms_, kMostRest_ms);
+    const bool still = gpu::wall_ms() - moved_ms_ > kRest_ms && !loading_ && model_.painted;
+    const bool sharp = still && model_.stats.sampleDetail >= 0.99 * model_.painted->shownDetail;  // as its size lets it be
+    rests_ = still && (rests_ || sharp);
+    if (rests_ && !sharp) cost_ms = std::max(cost_ms, kMostRest_ms / 1.5);  // no larger before
+    model_.scale.frame(cost_ms, rests_);
     auto passes = model_.stats.passes;
     for (const auto& [name, ms] : parts_ms)
       if (name != "picture") passes[name].wall_ms = ms;  // its passes are told one by one
     model_.times.add(frame_ms, passes);
     pace_.made(model_.stats.bricksGenerated, passes["bricks"].wall_ms + passes["light"].wall_ms);
-  }
-
-  // Has nobody moved or pressed anything for a while, and is the picture as sharp as its size lets it be?
-  bool rests() const {
-    return gpu::wall_ms() - moved_ms_ > kRest_ms && !loading_ && model_.painted &&
-           model_.stats.sampleDetail >= 0.99 * model_.painted->shownDetail;
   }
 
   // What is asked for is done, or begun.
@@ -349,6 +352,8 @@ class Viewer {
   } later_;                                                                  // changed while a renderer is made
   bool loading_ = false, airRefused_ = false, keep_ = false, told_ = false;  // keep: a picture is to be written; told: the renderer's notes
   double makeBegun_ms_ = 0;
+  bool rests_ = false;         // nobody moves, and the picture was as sharp as its size lets it be
+  double drawn_ms_ = 0;        // of the last frame whose picture was drawn
   std::uint64_t ordered_ = 0;  // the frame in which the last picture was ordered
   bool idle_ = false;
   View last_;

@@ -28,7 +28,7 @@ class RenderScale {
   std::size_t step_ = 0;  // the first picture is the quickest
   std::array<double, 8> last_ms_{};
   std::size_t frames_ = 0;  // at this scale
-  std::size_t tries_ = 0;   // to go up that did not hold: each next one waits longer
+  std::size_t tries_ = 0, otherTries_ = 0;   // to go up that did not hold: each next one waits longer
 };
 
 }  // namespace welkin::window
