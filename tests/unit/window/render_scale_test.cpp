@@ -58,6 +58,15 @@ TEST(RenderScale, SharperAtRestAndBackAtOnce) {
   EXPECT_EQ(scale.scale(), moving);
 }
 
+// What was too slow while a tree was made may do at rest: it is tried as soon as from the start.
+TEST(RenderScale, TriesThatFailedWhileMovingDoNotHoldARestBack) {
+  RenderScale scale;
+  settledScale(5, 330, scale);  // 26 ms at a quarter, so that more is tried; 45 at 0.35, so that it fails
+  const double before = scale.scale();
+  for (int i = 0; i < 60; ++i) scale.frame(45, true);
+  EXPECT_GT(scale.scale(), before);
+}
+
 TEST(RenderScale, SizesOfTinyAndMinimisedWindows) {
   const RenderScale scale;
   EXPECT_EQ(scale.sizeFor({1280, 800}).width, 320);
