@@ -222,11 +222,25 @@ DEBUG_VIEWS = {"steps": "steps", "level of detail": "detail", "occupancy": "occu
                "light": "light", "air only": "air", "NaN": "nan"}
 
 
+def fixed_size(w):
+    """The picture keeps the size that it has: by itself it grows at rest, and two pictures of one view would differ. The panel Quality is left open."""
+    w.key(PANELS["Camera"], PANELS["Quality"])
+    for _ in range(5):  # frames of a busy machine may miss a short press
+        state = w.wait_for(lambda s: "picture's size by itself" in s["fields"], 20) or w.state()
+        if not state["scale_automatic"]:
+            return
+        x0, y0, _, y1 = state["fields"]["picture's size by itself"]
+        w.click(x0 + (y1 - y0) / 2, (y0 + y1) / 2)
+        if w.wait_for(lambda s: not s["scale_automatic"], 5):
+            return
+
+
 def debug(c):
     """Each view of the debug panel is chosen with the mouse; then the picture again."""
     w = c.window(*SMALL)
+    fixed_size(w)
     w.wait_for(lambda s: s["settled"] and s["pictures"] > 20, 60)
-    w.key(PANELS["Camera"], PANELS["Debug"])
+    w.key(PANELS["Quality"], PANELS["Debug"])
     w.wait_for(lambda s: s["panels"] == ["Debug"] and "steps" in s["fields"], 20)
 
     def choose(label, view):

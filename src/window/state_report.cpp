@@ -58,6 +58,7 @@ std::string stateJson(const Model& m, const Counts& c, const std::vector<FlightS
                    {"window", {m.window.width, m.window.height}},
                    {"picture", {m.picture.width, m.picture.height}},
                    {"scale", m.scale.scale()},
+                   {"scale_automatic", m.scale.automatic},
                    {"loading", m.loading_s >= 0},
                    {"settled", m.stats.residency.settled},
                    {"bricks_to_come", m.stats.residency.pendingBricks},
