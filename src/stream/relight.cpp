@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint64_t kLater = 6;        // steps
 constexpr std::uint32_t kLookedAt = 8192;  // bricks a step: some tens of microseconds
+constexpr double kStale_rad = 0.00465;     // the radius of the sun's disc, seen from the Earth
 
 // The node of this address, if rays see it.
 std::optional<NodeIndex> find(const Tree& tree, const glm::uvec3& corner, std::uint32_t level) {
@@ -27,7 +28,33 @@ bool isLit(const Tree& tree, NodeIndex node) {
 
 }  // namespace
 
-Relight::Relight(glm::dvec3 toSun, std::uint32_t brickCapacity) : away_(-glm::sign(toSun)), bricks_(brickCapacity) {}
+Relight::Relight(std::uint32_t brickCapacity) : bricks_(brickCapacity) {}
+
+void Relight::sun(glm::dvec3 toSun, std::uint64_t step) {
+  const bool first = suns_.empty(), rests = !first && suns_.back().to == toSun;
+  if (!rests) suns_.push_back({step, toSun}), away_ = -glm::sign(toSun);
+  if (first) litFor_ = toSun;
+  // Of small angles the chord is the angle, and does not cancel as the cosine would.
+  const double moved = glm::length(toSun - litFor_);
+  if (moved > (rests ? 0 : kStale_rad)) litFor_ = toSun, since_ = step, unswept_ = sunLeft_ = std::uint32_t(bricks_.size());
+}
+
+glm::dvec3 Relight::oldestSun(const Tree& tree) {
+  if (suns_.empty()) return glm::dvec3(0);
+  if (suns_.size() == 1) return suns_.front().to;
+  std::uint64_t oldest = ~std::uint64_t(0);
+  for (std::uint32_t i = 1; i < bricks_.size(); ++i) {
+    Brick& b = bricks_[i];
+    if (b.lit == 0 || b.lit >= oldest) continue;
+    const NodeIndex node = tree.owner({i});
+    if (isLit(tree, node) && tree.node(node).brick.value == i)
+      oldest = b.lit;
+    else if (!b.waits)
+      b.lit = 0;  // freed, or to be generated: lit anew when it is shown
+  }
+  while (suns_.size() > 1 && suns_[1].from <= oldest) suns_.pop_front();
+  return oldest == ~std::uint64_t(0) ? suns_.back().to : suns_.front().to;
+}
 
 void Relight::lit(const Tree& tree, std::span<const NodeIndex> nodes, std::uint64_t step, bool soon) {
   if (nodes.empty() || away_ == glm::ivec3(0)) return;
@@ -73,6 +100,7 @@ void Relight::take(const Tree& tree, std::uint64_t step, std::vector<BrickJob>& 
 void Relight::sweep(const Tree& tree, std::uint64_t step, std::uint32_t most, std::vector<BrickJob>& light) {
   for (std::uint32_t looked = 0; unswept_ > 0 && most > 0 && looked < kLookedAt; ++looked, --unswept_) {
     const BrickIndex brick{cursor_};
+    sunLeft_ -= sunLeft_ > 0 ? 1 : 0;
     cursor_ = (cursor_ + 1) % std::uint32_t(bricks_.size());
     Brick& b = bricks_[brick.value];
     if (b.waits || b.lit == 0 || b.lit >= since_) continue;  // 0: never used

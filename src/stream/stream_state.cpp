@@ -29,7 +29,7 @@ struct StreamState::Impl {
         settings(streamSettings),
         tree(streamSettings.groupCapacity, streamSettings.brickCapacity),
         jobs(tree),
-        relight(streamSettings.toSun, streamSettings.brickCapacity) {
+        relight(streamSettings.brickCapacity) {
     if (settings.depth < 1 || settings.depth > shared::kMaxDepth) throw std::invalid_argument("octree: the depth must be 1 to 24");
     selectionSettings = {settings.depth,       settings.brickCapacity, settings.groupCapacity,
                          settings.detailLimit, kMaxNewGroups,          source.emptyFrom()};
@@ -47,7 +47,7 @@ struct StreamState::Impl {
   bool reselect();
   void followDetail(bool snap);
   void findBand(NodeIndex node, const NodeView& view, const NodeView::Seen& above);
-  void writeOut(FrameEdits& edits, bool snap, bool idle, std::uint32_t maxBricks);
+  void writeOut(FrameEdits& edits, const FrameInput& input, bool idle);
   ResidencyStats stats(bool settled) const;
 
   const DensitySource& source;
@@ -161,7 +161,7 @@ void StreamState::Impl::findBand(NodeIndex node, const NodeView& view, const Nod
   for (std::uint32_t octant = 0; octant < 8; ++octant) findBand(nodeOf(n.children, octant), view, seen);
 }
 
-void StreamState::Impl::writeOut(FrameEdits& edits, bool snap, bool idle, std::uint32_t maxBricks) {
+void StreamState::Impl::writeOut(FrameEdits& edits, const FrameInput& input, bool idle) {
   auto& touched = changes.touched;
   std::sort(touched.begin(), touched.end());
   for (const NodeIndex node : touched) {
@@ -189,10 +189,13 @@ void StreamState::Impl::writeOut(FrameEdits& edits, bool snap, bool idle, std::u
     const NodeAddress at = tree.address(node);
     edits.light.push_back({tree.node(node).brick.value, at.corner, at.level});
   }
-  relight.lit(tree, changes.shown, steps, !snap);  // a cut lights all at its end: each once
+  relight.sun(input.toSun, steps);
+  relight.lit(tree, changes.shown, steps, !input.snap);  // a cut lights all at its end: each once
   relight.take(tree, steps, edits.light);
-  // As much again as half of what is lit anyway; with nothing else to do, as much as is generated otherwise.
-  relight.sweep(tree, steps, idle ? maxBricks : std::uint32_t(edits.light.size()) / 2, edits.light);
+  // As much again as half of what is lit anyway; with nothing else to do, as much as is generated otherwise, and half of that for a sun
+  // that moves.
+  const std::uint32_t most = idle ? input.maxBricks : std::max(std::uint32_t(edits.light.size()) / 2, relight.sunMoved() ? input.maxBricks / 2 : 0);
+  relight.sweep(tree, steps, most, edits.light);
   changes.clear();
 }
 
@@ -237,11 +240,12 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
     if (bandBase_m > bandTop_m) bandBase_m = bandTop_m = 0;
   }
   ++steps;
-  writeOut(edits, input.snap, idle, input.maxBricks);
+  writeOut(edits, input, idle);
   edits.sampleDetail = static_cast<float>(detail);
   edits.sampleNear_m = static_cast<float>(motion.view().near_m);
   edits.bandBase_m = bandBase_m;
   edits.bandTop_m = bandTop_m;
+  edits.oldestSun = relight.oldestSun(tree);
   edits.stats = stats(idle && relight.done() && detail == targetDetail && motion.view().near_m == 0);
   return edits;
 }
