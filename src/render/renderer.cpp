@@ -35,8 +35,10 @@ constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and t
 // A voxel is node / 7: at the far end of its level's range it is kVoxelPixels wide, at the near end twice that.
 double pixelDetail(const ViewFrame& view, int height) { return height / (2 * view.tanY * 7 * kVoxelPixels); }
 
-SelectionCamera selectionCamera(const ViewFrame& view, int height) {
-  return {view.position_m, view.forward, view.right, view.up, view.tanY, view.tanX, pixelDetail(view, height)};
+// most: nodes a radian that are sampled at most; 0: as many as pixels show.
+SelectionCamera selectionCamera(const ViewFrame& view, int height, double most) {
+  const double pixels = pixelDetail(view, height);
+  return {view.position_m, view.forward, view.right, view.up, view.tanY, view.tanX, most > 0 ? std::min(pixels, most) : pixels};
 }
 
 std::uint64_t treeBudget(const Scene& scene, const gpu::MemoryAccount& account, std::uint64_t brickPassBytes) {
@@ -216,9 +218,9 @@ void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
 void Renderer::Impl::ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap) {
   FrameInput input;
   input.frame = step;
-  input.camera = selectionCamera(view, settings.height);
+  input.camera = selectionCamera(view, settings.height, scene.quality.detail);
   input.maxBricks = maxBricks;
-  input.detailLimit = settings.spareDetail * input.camera.pixelDetail;
+  input.detailLimit = settings.spareDetail * pixelDetail(view, settings.height);
   input.snap = snap;
   if (plan.sun && scene.sun) input.toSun = scene.sun->direction_planet;
   input.results = bricks->results(step >= kLatency && !snap ? step - kLatency : step);

@@ -106,10 +106,11 @@ class FakeGpu {
   bool allLitSinceTheLastCame() const {
     return std::all_of(shown_.begin(), shown_.end(), [this](const auto& s) { return litAt_.at(s.first) >= lastCame_; });
   }
-  // How far, as a chord, the sun is from where it stood when bricks that rays see were lit, at most.
+  // How far, as a chord, the sun is from where it stood when a brick was lit; of all that rays can reach, the greatest.
+  double light_rad(std::uint32_t brick, glm::dvec3 toSun) const { return glm::length(litFor_.at(brick) - toSun); }
   double oldestLight_rad(glm::dvec3 toSun) const {
     double most = 0;
-    for (const auto& [brick, job] : shown_) most = std::max(most, glm::length(litFor_.at(brick) - toSun));
+    for (const auto& [brick, job] : shown_) most = std::max(most, light_rad(brick, toSun));
     return most;
   }
   std::size_t reachableGroups() const { return reachableGroups_; }

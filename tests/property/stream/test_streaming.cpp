@@ -60,6 +60,26 @@ struct World {
   // Points that a visible ray samples: is the level that the detail asks for there? Counts those that are not.
   int missing(const SelectionCamera& camera, int rays) {
     int bad = 0;
+    sample(camera, rays, [&](glm::uvec3 p, std::uint32_t level) {
+      const NodeAddress got = gpu.descendTo(p, level);
+      if (got.level < level && !source.bounds(got.corner, got.level).empty()) ++bad;
+    });
+    return bad;
+  }
+
+  // The oldest light that visible rays sample.
+  double oldestSampled_rad(const SelectionCamera& camera, int rays) {
+    double most = 0;
+    sample(camera, rays, [&](glm::uvec3 p, std::uint32_t level) {
+      std::uint32_t brick = 0;
+      gpu.descendTo(p, level, &brick);
+      if (brick != 0) most = std::max(most, gpu.light_rad(brick, toSun));
+    });
+    return most;
+  }
+
+  template <class Look>
+  void sample(const SelectionCamera& camera, int rays, const Look& look) {
     for (int i = 0; i < rays; ++i) {
       const double x = uniform(-1, 1) * camera.tanHalfFovX, y = uniform(-1, 1) * camera.tanHalfFovY;
       const glm::dvec3 direction = glm::normalize(camera.forward + camera.right * x + camera.up * y);
@@ -71,11 +91,9 @@ struct World {
         const double far = std::max(t, static_cast<double>(last.sampleNear_m));
         std::uint32_t level = settings.depth;
         while (level > 0 && far > last.sampleDetail * root.nodeSize_m(level)) --level;
-        const NodeAddress got = gpu.descendTo(root.toFixed(at), level);
-        if (got.level < level && !source.bounds(got.corner, got.level).empty()) ++bad;
+        look(root.toFixed(at), level);
       }
     }
-    return bad;
   }
 };
 
@@ -200,7 +218,8 @@ glm::dvec3 sunAfter(double angle_rad) {
 // Of small angles the chord is the angle: 1e-5 of it at 0.03 rad.
 double apart_rad(glm::dvec3 a, glm::dvec3 b) { return glm::length(a - b); }
 
-// A sun that moves: the oldest light is as old as is told, no older than it takes to go round, and exact once the sun rests.
+// A sun that moves: the oldest light that rays sample is no older than is told, nor than it takes to light those bricks in turn; and
+// all of it is exact once the sun rests.
 TEST_P(Flight, LightFollowsTheSun) {
   constexpr double kStep_rad = 2e-4, kDisc_rad = 0.00465;
   constexpr std::uint32_t kLit = 100;  // bricks a frame
@@ -209,20 +228,21 @@ TEST_P(Flight, LightFollowsTheSun) {
   w.settle(camera);
   if (HasFatalFailure()) return;
   const double round = std::ceil(double(w.last.stats.bricks) / kLit) + 2;
-  double oldest_rad = 0;
+  double told_rad = 0, sampled_rad = 0;
   std::size_t lit = 0;
   for (int i = 1; i <= 300; ++i) {
     w.toSun = sunAfter(i * kStep_rad);
     w.step(camera, kLit);
     if (HasFatalFailure()) return;
-    const double is_rad = w.gpu.oldestLight_rad(w.toSun), told_rad = apart_rad(w.last.oldestSun, w.toSun);
-    ASSERT_NEAR(is_rad, told_rad, 1e-9) << "frame " << i;  // rounding
-    oldest_rad = std::max(oldest_rad, is_rad);
+    const double is_rad = w.oldestSampled_rad(camera, 5), told = apart_rad(w.last.oldestSun, w.toSun);
+    ASSERT_LE(is_rad, told + 1e-6) << "frame " << i;  // bricks keep it in floats
+    told_rad = std::max(told_rad, told), sampled_rad = std::max(sampled_rad, is_rad);
     lit += w.last.light.size();
   }
-  // Moved by its disc, then all bricks in turn; those lit first in one round may be last in the next.
-  EXPECT_LT(oldest_rad, kDisc_rad + 2 * round * kStep_rad);
-  EXPECT_GT(oldest_rad, kDisc_rad);  // else this tests nothing
+  // Moved by its disc, then all bricks in turn at the worst; those lit first in one round may be last in the next.
+  EXPECT_LT(told_rad, kDisc_rad + 2 * round * kStep_rad);
+  EXPECT_GT(sampled_rad, kDisc_rad / 2);  // else this tests nothing
+  EXPECT_LT(told_rad, 2 * sampled_rad);   // and is not told of what nobody sees: a few rays find about the oldest
   EXPECT_LE(lit, 300 * kLit);
   for (int i = 0; i < 2 * round && !w.last.stats.settled; ++i) w.step(camera, kLit);
   ASSERT_TRUE(w.last.stats.settled);
