@@ -160,6 +160,7 @@ Result<void> Renderer::Impl::create() {
   auto compositePass = CompositePass::create(account, scene, CompositeParts(plan), settings.width, settings.height, albedo.width ? &albedo : nullptr);
   if (!compositePass) return compositePass.error();
   composite.emplace(std::move(*compositePass));
+  composite->use(scene, wind_rad);
   if (plan.metered) {
     auto exposurePass = ExposurePass::create(account, scene);
     if (!exposurePass) return exposurePass.error();
