@@ -5,13 +5,14 @@ Each line is value, limit, pass or fail; exit 1 if any fails. All lines go to FO
 seconds. The cover picture (make data) is needed for near and tolerance.
 """
 
-import argparse
 import glob
 import json
 import os
 import statistics
 import subprocess
 import sys
+
+import checks
 
 ASKED = [0.5, 1, 2, 4]
 NEAR_RMSE = 0.0061  # of 0-1: what the thesis program reaches there with its default step
@@ -21,18 +22,7 @@ LEAST_SAVED = 0.05
 ORDERS = {"rectangle": 1, "trapezoid": 2, "simpson": 4}
 
 
-class Check:
-    def __init__(self, options):
-        self.build, self.out = os.path.abspath(options.build), os.path.abspath(options.out)
-        self.welkin, self.quick = os.path.join(self.build, "welkin"), options.quick
-        self.group, self.lines, self.details = "", [], {}
-        os.makedirs(self.out, exist_ok=True)
-
-    def line(self, name, value, limit, ok):
-        self.lines.append({"group": self.group, "name": name, "value": value, "limit": limit, "pass": bool(ok)})
-        text = f"{value:.3g}" if isinstance(value, float) else f"{value}"
-        print(f"{'pass' if ok else 'FAIL'}  {name}: {text} ({limit})", flush=True)
-
+class Check(checks.Check):
     def report(self, name, *arguments, exits=(0,)):
         """The JSON of a command, or None after a failing line."""
         path = os.path.join(self.out, name + ".json")
@@ -138,30 +128,14 @@ QUICK = ["order", "broken"]
 
 
 def main():
-    parser = argparse.ArgumentParser(description="What is promised of error against run time, line by line.")
-    parser.add_argument("--build", default="build")
-    parser.add_argument("--out", default="out/check-error")
-    parser.add_argument("--json", help="where the lines go (default: check-error.json in the folder)")
-    parser.add_argument("--only", help=f"comma-separated: {', '.join(GROUPS)}")
-    parser.add_argument("--quick", action="store_true", help=f"by default only {', '.join(QUICK)}; fewer rays")
-    options = parser.parse_args()
-    wanted = options.only.split(",") if options.only else QUICK if options.quick else list(GROUPS)
-    if not set(wanted) <= set(GROUPS):
-        parser.error(f"--only: expected some of {', '.join(GROUPS)}")
+    options, only = checks.options_of("check-error", "What is promised of error against run time, line by line.", GROUPS,
+                                      f"by default only {', '.join(QUICK)}; fewer rays")
+    wanted = only or (QUICK if options.quick else list(GROUPS))
     c = Check(options)
-    for group in wanted:
-        c.group = group
-        GROUPS[group](c)
-    report = options.json or os.path.join(c.out, "check-error.json")
-    os.makedirs(os.path.dirname(os.path.abspath(report)), exist_ok=True)
-    failed = sum(not line["pass"] for line in c.lines)
-    with open(report + ".new", "w", encoding="utf-8") as f:
-        json.dump({"groups": wanted, "quick": options.quick, "failed": failed, "lines": c.lines, "details": c.details}, f, indent=1)
-        f.write("\n")
-    os.replace(report + ".new", report)
-    print(f"{len(c.lines) - failed} of {len(c.lines)} lines hold; {os.path.relpath(report)}")
-    sys.exit(1 if failed or not c.lines else 0)
+    c.run_groups(GROUPS, wanted)
+    return c.write(options.json,
+                   {"groups": wanted, "quick": options.quick, "failed": c.failed(), "lines": c.lines, "details": c.details})
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -6,37 +6,24 @@ commit. --quick: fewer frames, for a first look; it proves less. While it runs, 
 are read anew by each flight.
 """
 
-import argparse
 import json
 import os
 import subprocess
 import sys
+
+import checks
 
 REPOSITORY = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FLIGHT = "benchmarks/orbit-to-ground.json"
 MIB = 1 << 20
 
 
-class Check:
+class Check(checks.Check):
+    digits = 4
+
     def __init__(self, options):
-        self.build = os.path.abspath(options.build)
-        self.welkin = os.path.join(self.build, "welkin")
-        self.out = os.path.abspath(options.out)
-        self.quick = options.quick
-        self.group, self.lines, self.context, self.details = "", [], {}, {}
-        os.makedirs(self.out, exist_ok=True)
-
-    def line(self, name, value, limit, ok):
-        self.lines.append({"group": self.group, "name": name, "value": value, "limit": limit, "pass": bool(ok)})
-        text = f"{value:.4g}" if isinstance(value, float) else f"{value}"
-        print(f"{'pass' if ok else 'FAIL'}  {name}: {text} ({limit})", flush=True)
-
-    def at_most(self, name, value, limit):
-        """`value` None: it was not measured, which is a failure."""
-        self.line(name, "not measured" if value is None else value, f"at most {limit:g}", value is not None and value <= limit)
-
-    def at_least(self, name, value, limit):
-        self.line(name, value, f"at least {limit:g}", value >= limit)
+        super().__init__(options)
+        self.context = {}
 
     def run(self, *arguments, **environment):
         return subprocess.run([self.welkin, *map(str, arguments)], capture_output=True, text=True, cwd=REPOSITORY, check=False,
@@ -272,30 +259,13 @@ GROUPS = {"path": check_path, "speed": check_speed, "cold": check_cold, "still":
 
 
 def main():
-    parser = argparse.ArgumentParser(description="What the flight from orbit to ground promises, line by line.")
-    parser.add_argument("--build", default="build")
-    parser.add_argument("--out", default="out/check-orbit")
-    parser.add_argument("--json", help="where the lines go (default: check-orbit.json in the folder)")
-    parser.add_argument("--only", help=f"comma-separated: {', '.join(GROUPS)}")
-    parser.add_argument("--quick", action="store_true", help="fewer frames")
-    options = parser.parse_args()
-    wanted = options.only.split(",") if options.only else list(GROUPS)
-    if not set(wanted) <= set(GROUPS):
-        parser.error(f"--only: expected some of {', '.join(GROUPS)}")
+    options, only = checks.options_of("check-orbit", "What the flight from orbit to ground promises, line by line.", GROUPS, "fewer frames")
+    wanted = only or list(GROUPS)
     c = Check(options)
-    for group in wanted:
-        c.group = group
-        GROUPS[group](c)
-    report = options.json or os.path.join(c.out, "check-orbit.json")
-    os.makedirs(os.path.dirname(os.path.abspath(report)), exist_ok=True)
-    failed = sum(not line["pass"] for line in c.lines)
-    with open(report + ".new", "w", encoding="utf-8") as f:
-        json.dump({"context": c.context, "groups": wanted, "quick": options.quick, "failed": failed, "lines": c.lines, "details": c.details}, f, indent=1)
-        f.write("\n")
-    os.replace(report + ".new", report)
-    print(f"{len(c.lines) - failed} of {len(c.lines)} lines hold; {report}")
-    sys.exit(1 if failed or not c.lines else 0)
+    c.run_groups(GROUPS, wanted)
+    return c.write(options.json,
+                   {"context": c.context, "groups": wanted, "quick": options.quick, "failed": c.failed(), "lines": c.lines, "details": c.details})
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -7,7 +7,6 @@ max(truth, 1 % of the brightest of its group); lines give its root mean square. 
 with the error of every ray and the named cases worst first. --quick: fewer rays and scenes, limits 1.5 times as wide.
 """
 
-import argparse
 import datetime
 import json
 import math
@@ -16,6 +15,7 @@ import statistics
 import subprocess
 import sys
 
+import checks
 import make_truth
 import sky
 import sky_furnace
@@ -33,24 +33,10 @@ COST_RUNS = 5
 WALL_S = {"tables-4d": (15, "3 s wanted"), "tables-2d": (0.06, None)}
 
 
-class Check:
+class Check(checks.Check):
     def __init__(self, options):
-        self.welkin = os.path.join(os.path.abspath(options.build), "welkin")
-        self.out = os.path.abspath(options.out)
-        self.quick, self.methods = options.quick, options.methods.split(",")
-        self.group, self.lines, self.details, self.answers = "", [], {}, {}
-        os.makedirs(self.out, exist_ok=True)
-
-    def line(self, name, value, limit, ok, published=None, digits=3):
-        if isinstance(value, float) and not math.isfinite(value):
-            value = "not finite"
-        self.lines.append({"group": self.group, "name": name, "value": value, "limit": limit, "pass": bool(ok),
-                           **({"published": published} if published else {})})
-        text = f"{value:.{digits}g}" if isinstance(value, float) else f"{value}"
-        print(f"{'pass' if ok else 'FAIL'}  {name}: {text} ({limit}{f'; best published {published}' if published else ''})", flush=True)
-
-    def at_most(self, name, value, limit, unit="", published=None):
-        self.line(name, value, f"at most {limit:g}{unit}", value <= limit, published)
+        super().__init__(options)
+        self.methods = options.methods.split(",")
 
     def probe(self, method, scene, rays, orders, name):
         """Rows, or None after a failing line."""
@@ -285,29 +271,13 @@ def context(c):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="What the clear sky promises, line by line.")
-    parser.add_argument("--build", default="build")
-    parser.add_argument("--out", default="out/check-sky")
-    parser.add_argument("--json", help="where the lines go (default: check-sky.json in the folder)")
-    parser.add_argument("--only", help=f"comma-separated: {', '.join(GROUPS)}")
-    parser.add_argument("--methods", default=",".join(METHODS), help="comma-separated: %(default)s")
-    parser.add_argument("--quick", action="store_true", help="fewer rays and scenes")
-    options = parser.parse_args()
-    wanted = options.only.split(",") if options.only else [g for g in GROUPS if not options.quick or g in ("accuracy", "robust")]
-    if not set(wanted) <= set(GROUPS):
-        parser.error(f"--only: expected some of {', '.join(GROUPS)}")
+    options, only = checks.options_of("check-sky", "What the clear sky promises, line by line.", GROUPS, "fewer rays and scenes",
+                                      lambda parser: parser.add_argument("--methods", default=",".join(METHODS), help="comma-separated: %(default)s"))
+    wanted = only or [g for g in GROUPS if not options.quick or g in ("accuracy", "robust")]
     c = Check(options)
-    for group in wanted:
-        c.group = group
-        GROUPS[group](c)
-    report = options.json or os.path.join(c.out, "check-sky.json")
-    os.makedirs(os.path.dirname(os.path.abspath(report)), exist_ok=True)
-    failed = sum(not line["pass"] for line in c.lines)
-    with open(report + ".new", "w", encoding="utf-8") as f:
-        f.write(compact({"context": context(c), "groups": wanted, "quick": options.quick, "failed": failed, "lines": c.lines, "details": c.details}))
-    os.replace(report + ".new", report)
-    print(f"{len(c.lines) - failed} of {len(c.lines)} lines hold; {os.path.relpath(report)}")
-    sys.exit(1 if failed or not c.lines else 0)
+    c.run_groups(GROUPS, wanted)
+    report = {"context": context(c), "groups": wanted, "quick": options.quick, "failed": c.failed(), "lines": c.lines, "details": c.details}
+    return c.write(options.json, report, compact)
 
 
 def compact(data, depth=0):
@@ -321,4 +291,4 @@ def compact(data, depth=0):
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""picture_window.py --build BUILD --size 1280x800 --keys 6 -o docs/figures/window.png [what `welkin view` takes ...]: the window as it is when its tree is
-there, on a display of its own (Xvfb). --keys: pressed first, such as panels; the camera's panel is open at the start. --seconds: at most so long."""
+"""picture_window.py --build BUILD --size 1280x800 --keys 6 -o docs/figures/window.png [what `welkin view` takes ...]: the window as it is
+when its tree is there, on a display of its own (Xvfb). --keys: pressed first, such as panels; the camera's panel is open at the start.
+--seconds: at most so long."""
 
 import argparse
 import os

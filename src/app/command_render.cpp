@@ -23,8 +23,7 @@ struct RenderOptions {
 
 Result<void> writeRendered(const RenderOptions& o, const Renderer& renderer, const PictureState& state) {
   const auto folder = o.output.has_parent_path() ? o.output.parent_path() : std::filesystem::path(".");
-  Texts texts = textsFromState(state, folder);
-  if (o.debug != DebugView::None) texts.emplace_back("welkin:debug", kDebugViewNames[std::size_t(o.debug)]);
+  const Texts texts = textsFromState(state, folder);
   return kindOfName(o.output) == PictureKind::Exr ? writeExr(o.output, renderer.radiance(), texts)
                                                   : writePng(o.output, renderer.image(), texts);
 }

@@ -68,6 +68,7 @@ PictureState stateOf(const Renderer& renderer, const View& view, double exposure
   state.height = size.height;
   state.time_s = time_s;
   state.converged = converged;
+  state.debug = renderer.debugView();
   state.exposure_ev = exposure_ev;
   if (!state.scene.output.exposure_ev) state.view.exposure_ev = exposure_ev;
   state.build = buildText();

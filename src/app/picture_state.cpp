@@ -79,6 +79,12 @@ class Reader {
   std::string picture_;
 };
 
+// None for a name of another version: what the picture shows was drawn from scene and view all the same.
+DebugView debugViewNamed(const std::string& name) {
+  const auto found = std::find(kDebugViewNames.begin(), kDebugViewNames.end(), name);
+  return found == kDebugViewNames.end() ? DebugView::None : DebugView(found - kDebugViewNames.begin());
+}
+
 }  // namespace
 
 Texts textsFromState(const PictureState& s, const fs::path& folder) {
@@ -87,7 +93,7 @@ Texts textsFromState(const PictureState& s, const fs::path& folder) {
                       {"step", q.step},   {"detail", q.detail}, {"exposure_ev", s.exposure_ev}};
   Json data = Json::object();
   for (const auto& [file, sum] : s.data) data[relativeTo(file, folder).generic_string()] = sum;
-  return {{"welkin:scene", sceneToJson(s.scene, folder, -1)},
+  Texts texts{{"welkin:scene", sceneToJson(s.scene, folder, -1)},
           {"welkin:view", viewToJson(s.view)},
           {"welkin:settings", settings.dump()},
           {"welkin:seed", std::to_string(q.seed)},
@@ -95,6 +101,8 @@ Texts textsFromState(const PictureState& s, const fs::path& folder) {
           {"welkin:data", data.dump(-1, ' ', false, Json::error_handler_t::replace)},
           {"welkin:build", s.build},
           {"welkin:converged", s.converged ? "1" : "0"}};
+  if (s.debug != DebugView::None) texts.emplace_back("welkin:debug", kDebugViewNames[std::size_t(s.debug)]);
+  return texts;
 }
 
 Result<PictureState> stateFromTexts(const Texts& texts, const fs::path& picture) {
@@ -127,6 +135,7 @@ Result<PictureState> stateFromTexts(const Texts& texts, const fs::path& picture)
     if (there(in.has("welkin:time_s"), "welkin:time_s", "scene time 0")) s.time_s = in.number("welkin:time_s");
     if (there(in.has("welkin:build"), "welkin:build", "what made it is not known")) s.build = in.text("welkin:build");
     if (there(in.has("welkin:converged"), "welkin:converged", "taken as not converged")) s.converged = in.text("welkin:converged") == "1";
+    if (in.has("welkin:debug")) s.debug = debugViewNamed(in.text("welkin:debug"));
     if (!there(in.has("welkin:data"), "welkin:data", "data files are not checked")) {
       for (const auto& file : dataFiles(s.scene)) s.data[file] = "";
       return s;

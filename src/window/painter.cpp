@@ -56,7 +56,6 @@ void Painter::make(const Scene& scene, const RenderSettings& settings, const Vie
     if (made) {
       renderer_ = std::move(*made);
       size_ = {settings.width, settings.height};
-      debug_ = DebugView::None;
       for (int i = 0; i < kFirstFrames && wanted(); ++i)  // the last one whole: pixels of eight trees side by side show as dots
         renderer_->frame(view, i + 1 < kFirstFrames ? FrameMode::Reprojected : FrameMode::Full, 0);
     }
@@ -110,26 +109,25 @@ Painted Painter::paint(const Order& order) {
   const auto tried = [&painted](const Result<void>& r) {
     if (!r) painted.failed.push_back(r.error().message);
   };
-  if (order.size.width != size_.width || order.size.height != size_.height) {
-    tried(renderer_->resize(order.size.width, order.size.height));
-    size_ = order.size;
-  }
+  resize(order.size, painted);
   if (order.march) tried(renderer_->setMarch(*order.march));
   if (order.output) tried(renderer_->setOutput(*order.output));
   if (order.air) painted.airRefused = !renderer_->setAir(*order.air, Renderer::AirChange::Recompute);
   renderer_->setTime(order.time_s);
-  if (order.debug != debug_) tried(renderer_->setDebugView(debug_ = order.debug));
+  setDebugView(order.debug, painted);
   renderer_->setBricksPerFrame(order.bricksPerFrame);
   painted.stats = renderer_->frame(order.view, order.mode, order.sinceLast_s);
   const gpu::Texture& shown = renderer_->shown();
   painted.size = {shown.spec().width, shown.spec().height};
-  painted.canvas = freeCanvas(painted.size);
+  const std::pair copied{painted.size.width, painted.size.height};
+  if (const double now_ms = gpu::wall_ms(); copying_.due(copied, now_ms)) {
+    painted.canvas = freeCanvas(painted.size);
+    if (copying_.tried(copied, painted.canvas != nullptr, now_ms)) painted.failed.push_back("no memory for a picture of this size");
+  }
   if (painted.canvas) {
     if (painted.canvas->read) glWaitSync(painted.canvas->read, 0, GL_TIMEOUT_IGNORED);
     glCopyImageSubData(shown.id(), GL_TEXTURE_2D, 0, 0, 0, 0, painted.canvas->texture.id(), GL_TEXTURE_2D, 0, 0, 0, 0, painted.size.width,
                        painted.size.height, 1);
-  } else {
-    painted.failed.push_back("no memory for a picture of this size");
   }
   if (order.keep)
     painted.kept = {renderer_->image(),
@@ -142,6 +140,26 @@ Painted Painter::paint(const Order& order) {
   glFinish();  // another context reads it
   painted.ms = gpu::wall_ms() - begun_ms;
   return painted;
+}
+
+// If it fails, pictures keep the size that they had.
+void Painter::resize(app::Size size, Painted& painted) {
+  const std::pair wanted{size.width, size.height};
+  const double now_ms = gpu::wall_ms();
+  if ((size.width == size_.width && size.height == size_.height) || !resizing_.due(wanted, now_ms)) return;
+  const auto done = renderer_->resize(size.width, size.height);
+  if (done) size_ = size;
+  const auto kept = renderer_->resize(size_.width, size_.height);
+  if (!resizing_.tried(wanted, done.ok(), now_ms)) return;
+  for (const auto* result : {&done, &kept})
+    if (!*result) painted.failed.push_back(result->error().message);
+}
+
+void Painter::setDebugView(DebugView view, Painted& painted) {
+  const double now_ms = gpu::wall_ms();
+  if (view == renderer_->debugView() || !debugging_.due(view, now_ms)) return;
+  const auto done = renderer_->setDebugView(view);
+  if (debugging_.tried(view, done.ok(), now_ms)) painted.failed.push_back(done.error().message);
 }
 
 // One that the window does not hold.

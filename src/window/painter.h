@@ -12,6 +12,7 @@
 #include "welkin/app/options.h"
 #include "welkin/app/picture.h"
 #include "welkin/render/renderer.h"
+#include "welkin/window/retry.h"
 
 struct GLFWwindow;
 
@@ -79,6 +80,8 @@ class Painter {
   void run(std::function<void()> job);
   void work();
   Painted paint(const Order& order);
+  void resize(app::Size size, Painted& painted);
+  void setDebugView(DebugView view, Painted& painted);
   std::shared_ptr<Canvas> freeCanvas(app::Size size);
 
   GLFWwindow* hidden_;
@@ -95,7 +98,8 @@ class Painter {
   gpu::Context* context_ = nullptr;  // the thread's, with all that follows
   std::unique_ptr<Renderer> renderer_;
   app::Size size_;
-  DebugView debug_ = DebugView::None;  // asked for last
+  Retry<std::pair<int, int>> resizing_, copying_;
+  Retry<DebugView> debugging_;
   std::array<std::shared_ptr<Canvas>, 2> canvases_;
 
   std::atomic<bool> stop_{false};

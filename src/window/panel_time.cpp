@@ -7,7 +7,7 @@ void timePanel(Model& model) {
   if (press(model.playing ? "Pause" : "Play", "the scene's time")) model.playing = !model.playing;
   ImGui::SameLine();
   if (press("To 0 s", "the scene's time back to its beginning")) model.time_s = 0;
-  number("speed", model.timeSpeed, 1, {0.01, 10'000, "x %.3g", true}, "of the scene's time");
+  number("speed", model.timeSpeed, 1, {0.01, 10'000, "x %.5g", true}, "of the scene's time");
   number("time", model.time_s, 0, {0, 86'400, "%.2f s"}, "of the scene: the sun goes with the day, clouds with the wind; it is stored with pictures");
   Scene& scene = model.scene;
   if (scene.sun) {

@@ -8,9 +8,11 @@
 namespace welkin::window {
 namespace {
 
-Result<std::filesystem::path> newFile(const std::filesystem::path& folder, const View& view, const Scene& scene,
+Result<std::filesystem::path> newFile(const std::filesystem::path& folder, const app::PictureState& state,
                                       const std::vector<std::string>& extensions) {
-  return app::reserveFiles(folder, app::shotName(app::localNow(), app::toGeographic(view, scene.planet.radius_m)), extensions);
+  std::string name = app::shotName(app::localNow(), app::toGeographic(state.view, state.scene.planet.radius_m));
+  if (state.debug != DebugView::None) name += fmt::format("-debug-{}", kDebugViewNames[std::size_t(state.debug)]);
+  return app::reserveFiles(folder, name, extensions);
 }
 
 std::filesystem::path with(std::filesystem::path stem, const char* extension) { return stem += extension; }
@@ -40,7 +42,7 @@ void Screenshots::add(std::function<Result<std::string>()> job) {
 void Screenshots::takeAsSeen(Image8 image, app::PictureState state) {
   add([this, image = std::move(image), state = std::move(state)]() mutable -> Result<std::string> {
     state.data = app::dataChecksums(state.scene);
-    const auto file = newFile(folder_, state.view, state.scene, {".png"});
+    const auto file = newFile(folder_, state, {".png"});
     if (!file) return file.error();
     if (auto written = app::writePng(with(*file, ".png"), image, app::textsFromState(state, folder_)); !written) return written.error();
     return "wrote " + with(*file, ".png").string();
@@ -59,7 +61,7 @@ void Screenshots::takeConverged(const Scene& scene, const View& view, app::Size 
     if (!stats) return stats.error();
     const auto state = app::stateOf(*stage->renderer, view, stats->exposure_ev, size, time_s, true, app::dataChecksums(scene));
     const auto texts = app::textsFromState(state, folder_);
-    const auto file = newFile(folder_, view, scene, {".png", ".exr"});
+    const auto file = newFile(folder_, state, {".png", ".exr"});
     if (!file) return file.error();
     if (auto written = app::writePng(with(*file, ".png"), stage->renderer->image(), texts); !written) return written.error();
     if (auto written = app::writeExr(with(*file, ".exr"), stage->renderer->radiance(), texts); !written) return written.error();

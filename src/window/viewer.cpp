@@ -159,7 +159,7 @@ class Viewer {
     for (const auto& [name, ms] : parts_ms)
       if (name != "picture") passes[name].wall_ms = ms;  // its passes are told one by one
     model_.times.add(frame_ms, passes);
-    pace_.made(model_.stats.bricksGenerated, passes["bricks"].wall_ms + passes["light"].wall_ms);
+    pace_.made(std::max(model_.stats.bricksGenerated, model_.stats.bricksLit), passes["bricks"].wall_ms + passes["light"].wall_ms);
   }
 
   // What is asked for is done, or begun.

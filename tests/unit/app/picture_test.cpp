@@ -64,6 +64,7 @@ struct Pictures : testing::Test {
     EXPECT_EQ(a.time_s, b.time_s);
     EXPECT_EQ(a.converged, b.converged);
     EXPECT_EQ(a.exposure_ev, b.exposure_ev);
+    EXPECT_EQ(a.debug, b.debug);
     EXPECT_EQ(a.build, b.build);
     EXPECT_EQ(a.data, b.data);
   }
@@ -92,6 +93,22 @@ TEST_F(Pictures, pngKeepsPixelsAndState) {
   expectSame(*back, state());
   EXPECT_THAT(*readFile(file), HasSubstr("\"../data/cover.png\""));  // relative, so a checkout can move
   EXPECT_THAT(*readFile(file), Not(HasSubstr(folder.string())));     // and no path of this machine
+}
+
+TEST_F(Pictures, aDebugViewIsNamed) {
+  PictureState s = state();
+  for (const auto& [key, text] : textsFromState(s, folder)) EXPECT_NE(key, "welkin:debug") << text;
+  s.debug = DebugView::History;
+  Texts texts = textsFromState(s, folder);
+  EXPECT_EQ(texts.back(), (Texts::value_type{"welkin:debug", "history"}));
+  auto back = stateFromTexts(texts, folder / "a.png");
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  expectSame(*back, s);
+  texts.back().second = "a view of a later version";
+  back = stateFromTexts(texts, folder / "a.png");
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  expectSame(*back, state());
+  EXPECT_TRUE(back->notes.empty());
 }
 
 TEST_F(Pictures, exrKeepsPixelsAndState) {

@@ -28,6 +28,7 @@ struct PictureState {
   std::string build;
   std::map<std::filesystem::path, std::string> data;  // data file -> sha256 or kMissing
   std::vector<std::string> notes;                     // one line for each text that was missing and what stands in its place
+  DebugView debug = DebugView::None;                  // shown in its false colours
 };
 
 using Texts = std::vector<std::pair<std::string, std::string>>;  // "welkin:scene" -> ...
