@@ -112,7 +112,7 @@ class Convergence {
     const auto fix = [ev](View& view) { view.exposure_ev = view.exposure_ev.value_or(ev); };
     for (auto& view : poses_.views) fix(view);
     for (auto& frames : poses_.before)
-      for (auto& view : frames) fix(view);
+      for (auto& frame : frames) fix(frame.view);
     return {};
   }
 
@@ -187,11 +187,13 @@ class Convergence {
     Renderer& renderer = trees_->of(s);
     if (auto used = renderer.setMarch(s.quality); !used) return used;
     const auto& before = poses_.before[pose];
-    renderer.settle(before.front());
-    FrameStats stats = renderer.frame(before.front(), FrameMode::Full);
+    renderer.setTime(before.front().time_s);
+    renderer.settle(before.front().view);
+    FrameStats stats = renderer.frame(before.front().view, FrameMode::Full);
     for (std::size_t k = 1; k <= before.size(); ++k) {
       if (trees_->software()) waitUntilIdle();
-      stats = renderer.frame(k < before.size() ? before[k] : poses_.views[pose]);
+      renderer.setTime(k < before.size() ? before[k].time_s : poses_.times_s[pose]);
+      stats = renderer.frame(k < before.size() ? before[k].view : poses_.views[pose]);
       addTimes(works_[i], stats, trees_->software());
     }
     if (auto kept = keepPicture(works_[i], renderer, stats, pose); !kept) return kept;

@@ -39,7 +39,7 @@ Result<Poses> posesOfPath(const ConvergeOptions& options) {
     out.times_s.push_back(path->frames[frame].time_s);
     auto& before = out.before.emplace_back();
     for (std::size_t k = frame - std::min(frame, kFramesBefore); k < std::max<std::size_t>(frame, 1); ++k)
-      before.push_back(path->frames[k].view);
+      before.push_back(path->frames[k]);
   }
   return out;
 }
@@ -68,7 +68,7 @@ Result<Poses> loadPoses(const ConvergeOptions& options) {
   apply(options.common, out.scene);
   for (auto& view : out.views) apply(options.common, view);
   for (auto& frames : out.before)
-    for (auto& view : frames) apply(options.common, view);
+    for (auto& frame : frames) apply(options.common, frame.view);
   if (options.common.size) out.size = *options.common.size;
   return out;
 }

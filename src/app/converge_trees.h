@@ -7,6 +7,7 @@
 
 #include "welkin/app/converge.h"
 #include "welkin/gpu/context.h"
+#include "welkin/physics/path_io.h"
 #include "welkin/render/renderer.h"
 
 namespace welkin::app {
@@ -17,7 +18,7 @@ struct Poses {
   std::string name;
   std::vector<View> views;
   std::vector<double> times_s;  // of the scene, for each
-  std::vector<std::vector<View>> before;  // of a path: the frames that lead to each pose, oldest first; else empty
+  std::vector<std::vector<PathFrame>> before;  // of a path: the frames that lead to each pose, oldest first; else empty
 };
 Result<Poses> loadPoses(const ConvergeOptions& options);
 

@@ -105,6 +105,7 @@ class Replay {
       drawn(i + 1, "warm-up");
     }
     for (int frame = plan_.first; frame < plan_.end && !stopped(); ++frame) {
+      stage_.renderer->setTime(pose(frame).time_s);
       if ((frame - plan_.first) % kChoiceFrames == 0)
         if (auto chosen = chooseMarch(frame); !chosen) return chosen;
       if (auto done = drawFrame(frame, video.get()); !done) return done;
@@ -129,7 +130,6 @@ class Replay {
 
   Result<void> drawFrame(int frame, VideoWriter* video) {
     const View& view = pose(frame).view;
-    stage_.renderer->setTime(pose(frame).time_s);
     // The first frame has no tree before it.
     const bool pop = options_.pop && frame > plan_.first && frame >= options_.pop->first && frame < options_.pop->end.value_or(plan_.end);
     Image8 before;

@@ -11,6 +11,7 @@
 #include "welkin/core/units.h"
 #include "welkin/physics/path_io.h"
 #include "welkin/physics/scene_io.h"
+#include "welkin/physics/scene_time.h"
 
 namespace welkin::app {
 namespace fs = std::filesystem;
@@ -132,7 +133,7 @@ Result<PictureState> stateFromTexts(const Texts& texts, const fs::path& picture)
       s.exposure_ev = in.number(settings, "exposure_ev");
     else
       s.exposure_ev = s.view.exposure_ev.value_or(s.scene.output.exposure_ev.value_or(0));
-    if (there(in.has("welkin:time_s"), "welkin:time_s", "scene time 0")) s.time_s = in.number("welkin:time_s");
+    if (there(in.has("welkin:time_s"), "welkin:time_s", "scene time 0")) s.time_s = in.number("welkin:time_s", kGreatestTime_s);
     if (there(in.has("welkin:build"), "welkin:build", "what made it is not known")) s.build = in.text("welkin:build");
     if (there(in.has("welkin:converged"), "welkin:converged", "taken as not converged")) s.converged = in.text("welkin:converged") == "1";
     if (in.has("welkin:debug")) s.debug = debugViewNamed(in.text("welkin:debug"));

@@ -7,6 +7,7 @@
 
 #include "welkin/app/places.h"
 #include "welkin/physics/scene_io.h"
+#include "welkin/physics/scene_time.h"
 
 namespace welkin::app {
 namespace {
@@ -70,7 +71,7 @@ Result<PictureState> stateOfThesisPicture(const Texts& texts, const std::filesys
   }
   if (const auto* text = find(texts, kAnimationTime)) {
     const auto t = numbers(*text, 1);
-    if (t.empty()) return bad(kAnimationTime, "a number of seconds");
+    if (t.empty() || !(std::abs(t[0]) <= kGreatestTime_s)) return bad(kAnimationTime, "a number of seconds up to 1e12");
     s.time_s = t[0];
   }
 
@@ -81,6 +82,8 @@ Result<PictureState> stateOfThesisPicture(const Texts& texts, const std::filesys
   s.scene.planet.radius_m = kThesisRadius_m;
   s.scene.file = picture;
   s.scene.views.clear();
+  if (s.scene.sun) s.scene.sun->day_s = 0;  // its animation is of the clouds' shapes
+  if (s.scene.clouds) s.scene.clouds->windEast_m_per_s = 0;
   note("a picture of the thesis program: its camera over scenes/earth.json with a radius of 6371 km");
   if (find(texts, kLightTime) != nullptr) note(kLightTime + " is left out: the sun stands where the scene has it");
   if (distance_m < kThesisRadius_m) {

@@ -277,14 +277,18 @@ void Renderer::Impl::useAir(const Scene& changed) {
   given.planet.albedo = changed.planet.albedo, given.atmosphere = changed.atmosphere, given.sun = changed.sun;
   if (given.clouds && changed.clouds) given.clouds->windEast_m_per_s = changed.clouds->windEast_m_per_s;
   wind_rad = windTurn_rad(given, settings.time_s);
-  scene.planet.albedo = given.planet.albedo, scene.atmosphere = given.atmosphere, scene.sun = given.sun;
+  scene.planet.albedo = given.planet.albedo, scene.atmosphere = given.atmosphere;
+  const glm::dvec3 before = scene.sun ? scene.sun->direction_planet : glm::dvec3(0);
+  scene.sun = given.sun;
+  if (scene.sun) scene.sun->direction_planet = before;
   placeSun();
 }
 
 void Renderer::Impl::placeSun() {
-  const Sun before = scene.sun.value_or(Sun{});
-  if (given.sun) scene.sun->direction_planet = inClouds(given).sun->direction_planet;
-  sunMoved |= scene.sun && scene.sun->direction_planet != before.direction_planet;
+  if (given.sun) {
+    const glm::dvec3 now = turned(sunAt(*given.sun, settings.time_s), -wind_rad);
+    sunMoved |= now != std::exchange(scene.sun->direction_planet, now);
+  }
   composite->use(scene, wind_rad);
   stillFrames = 0, marchedFrames = 0;
 }
@@ -307,7 +311,7 @@ Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
     if (!tables) return tables.error();
     nextSky.reset();
     if (how == AirChange::Recompute)
-      nextSky.emplace(NextSky{std::move(*tables), std::move(next)});
+      nextSky.emplace(NextSky{std::move(*tables), next});
     else
       sky = std::move(*tables);
   }
@@ -369,7 +373,7 @@ FrameStats Renderer::Impl::report(FrameStats stats) const {
   stats.bytesUsed = account.used();
   stats.bytesBudget = account.budget();
   stats.frameTargetBytes = account.frameTargets();
-  if (plan.clouds && plan.sun && scene.sun && last.oldestSun != glm::dvec3(0))
+  if (plan.clouds && !away && plan.sun && scene.sun && last.oldestSun != glm::dvec3(0))
     stats.lightStale_deg = glm::degrees(2 * std::asin(std::min(glm::length(last.oldestSun - scene.sun->direction_planet) / 2, 1.0)));
   stats.skyProgress = nextSky ? nextSky->tables.progress() : 1;
   return stats;
@@ -476,7 +480,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
       r.apply(std::move(nothing), frame.position_m, stats);
     }
     r.tree->bind();
-    r.clouds->run(frame, mode, r.scene, r.seen_ev(view), treeChanged || std::exchange(r.sunMoved, false) || !r.last.stats.settled, r.timer);
+    r.clouds->run(frame, mode, r.scene, r.seen_ev(view), std::exchange(r.sunMoved, false) || treeChanged || !r.last.stats.settled, r.timer);
     stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     r.endPicture(frame, view, sinceLast_s);
     if (r.debug) r.drawDebug(frame, view, r.clouds->turn());

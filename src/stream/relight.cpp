@@ -39,7 +39,7 @@ void Relight::sun(glm::dvec3 toSun, std::uint64_t step) {
   away_ = -glm::sign(toSun);
   // Of small angles the chord is the angle, and does not cancel as the cosine would.
   if (glm::length(toSun - litFor_) > (rests ? 0 : kStale_rad))
-    litFor_ = toSun, since_ = step, unswept_ = sunLeft_ = std::uint32_t(bricks_.size());
+    litFor_ = toSun, since_ = sunSince_ = step, unswept_ = sunLeft_ = std::uint32_t(bricks_.size());
 }
 
 void Relight::lit(const Tree& tree, std::span<const NodeIndex> nodes, std::uint64_t step, bool soon) {
@@ -66,7 +66,7 @@ std::uint32_t Relight::follow(const Tree& tree, std::span<const BrickIndex> samp
   old_.clear();
   for (const BrickIndex brick : sampled) {
     const Brick& b = bricks_[brick.value];
-    if (!b.waits && b.lit != 0 && b.lit < since_ && b.lit < step) old_.push_back(brick);
+    if (!b.waits && b.lit != 0 && b.lit < sunSince_) old_.push_back(brick);
   }
   const std::size_t count = std::min<std::size_t>(most, old_.size());
   const auto older = [this](BrickIndex a, BrickIndex b) {

@@ -23,7 +23,7 @@ class Relight {
   void lit(const Tree& tree, std::span<const NodeIndex> nodes, std::uint64_t step, bool soon);
   // Adds those whose time has come: neighbours of one brick come in the same few steps, and count once.
   void take(const Tree& tree, std::uint64_t step, std::vector<BrickJob>& light);
-  // Of these bricks, which rays sample, adds `most` of those whose light is old, the oldest first. Returns how many are added.
+  // Of these bricks, which rays sample, adds `most` of those that were lit before the sun moved, the oldest first. Returns how many are added.
   std::uint32_t follow(const Tree& tree, std::span<const BrickIndex> sampled, std::uint64_t step, std::uint32_t most, std::vector<BrickJob>& light);
   // Adds `most` of those that were lit before the last others came, or the sun moved.
   void sweep(const Tree& tree, std::uint64_t step, std::uint32_t most, std::vector<BrickJob>& light);
@@ -53,7 +53,8 @@ class Relight {
   std::deque<Due> due_;  // in order of their steps
   std::vector<Brick> bricks_;
   std::vector<BrickIndex> old_;             // of one follow()
-  std::uint64_t since_ = 0;                 // the last step in which bricks came, or light got old
+  std::uint64_t since_ = 0;                 // the last step in which bricks came, or the sun's light got old
+  std::uint64_t sunSince_ = 0;              // the last of the latter
   std::uint32_t cursor_ = 0, unswept_ = 0;  // the next brick to look at; how many are left to look at
   std::uint32_t sunLeft_ = 0;               // the same for the sun's sake
 };

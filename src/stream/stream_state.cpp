@@ -265,7 +265,7 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
   edits.sampleNear_m = static_cast<float>(motion.view().near_m);
   edits.bandBase_m = bandBase_m;
   edits.bandTop_m = bandTop_m;
-  edits.stats = stats(idle && relight.done() && detail == targetDetail && motion.view().near_m == 0);
+  edits.stats = stats(idle && relight.done() && relight.exact() && detail == targetDetail && motion.view().near_m == 0);
   return edits;
 }
 

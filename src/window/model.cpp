@@ -93,6 +93,10 @@ void Model::show(const Scene& other) {
   if (!rebuild) wanted.march = wanted.output = true;
 }
 
+bool Model::timeMoves() const {
+  return (scene.sun && scene.sun->day_s != 0) || (scene.clouds && scene.clouds->windEast_m_per_s != 0);
+}
+
 void Model::say(const std::string& text, bool bad) {
   message = oneLine(text, 240);
   messageBad = bad;

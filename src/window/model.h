@@ -45,6 +45,7 @@ struct Model {
   app::FlyCamera camera{6'371'000};
   View home;                          // where it began
   std::optional<double> exposure_ev;  // of the picture; none: metered
+  bool timeMoves() const;  // the scene has a day, or a wind
   double time_s = 0, timeSpeed = 1;
   bool playing = false;
   bool reprojection = true;

@@ -1,5 +1,7 @@
 #include "welkin/window/view_command.h"
 
+#include <fmt/format.h>
+
 #include "viewer.h"
 #include "welkin/app/commands.h"
 #include "welkin/app/places.h"
@@ -28,6 +30,7 @@ Result<app::Restored> startOf(const ViewOptions& options) {
 Result<void> view(const ViewOptions& options) {
   auto start = startOf(options);
   if (!start) return start.error();
+  if (start->path && options.common.time_s) return Error{fmt::format("{}: a path has its own times", options.input.string())};
   app::LoadedSettings loaded = app::loadSettings(app::settingsFile());
   const app::Settings& kept = loaded.settings;
   const Placement place = options.common.size ? Placement{*options.common.size, {}, false}

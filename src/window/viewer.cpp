@@ -92,13 +92,13 @@ class Viewer {
     if (!flights_.running()) controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
     if (interface_.busy() || !events.pressed.empty()) flights_.moveOn();
     if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.deck.mode() != Deck::Mode::Idle ||
-        (model_.playing && model_.timeSpeed > kSlowTime) ||
+        (model_.playing && model_.timeSpeed > kSlowTime && model_.timeMoves()) ||
         !sameView(model_.view(), last_))
       moved_ms_ = now_ms;
     last_ = model_.view();
     for (const auto& file : events.dropped) load(file);
+    if (model_.playing && model_.deck.mode() != Deck::Mode::Playing && !flights_.running()) model_.time_s += dt_s * model_.timeSpeed;
     model_.runTape(dt_s);
-    if (model_.playing) model_.time_s += dt_s * model_.timeSpeed;
     model_.frameRate += (1 / std::max(dt_s, 1e-3) - model_.frameRate) * std::min(1.0, dt_s * 2);
     carryOut();
     model_.window = window_.pixels();

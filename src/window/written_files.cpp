@@ -3,6 +3,7 @@
 #include "welkin/app/picture.h"
 #include "welkin/app/places.h"
 #include "welkin/physics/scene_io.h"
+#include "welkin/physics/scene_time.h"
 
 namespace welkin::window {
 namespace {
@@ -21,7 +22,7 @@ bool asInItsFile(const Scene& scene, bool exposureMatters) {
 }  // namespace
 
 Result<std::filesystem::path> writeScene(const Model& model, const std::filesystem::path& folder) {
-  Scene scene = model.scene;
+  Scene scene = atTime(model.scene, model.time_s);  // a scene begins at 0
   scene.views["default"] = model.view();
   auto stem = app::reserveFiles(folder, "welkin-scene", {".json"});
   if (!stem) return stem.error();

@@ -1,6 +1,6 @@
 // One work group lights one brick. The sun's depth of a sample is a near part, integrated sample by sample through one lattice spacing of
 // the brick's own level, and a far part from there to the top of the clouds, which is smooth: 4^3 shadow rays through the tree,
-// interpolated. A far ray's level follows from position and distance alone, so neighbours agree on a face.
+// interpolated as they are stored (decision 18): of a step from 0 to 200 a tenth of the way is then 2, not 20. A far ray's level follows from position and distance alone, so neighbours agree on a face.
 #include "lib/brick_image.glsl"
 #include "lib/shadow.glsl"
 #ifndef LIGHT_NEAR_SAMPLES
@@ -16,6 +16,7 @@ const int kNearSamples = LIGHT_NEAR_SAMPLES;
 
 shared float s_far[4][4][4];
 
+// Encoded.
 float farDepth(uvec3 i) {
   vec3 at = vec3(i) * (3.0 / 7.0);
   uvec3 a = min(uvec3(at), uvec3(2u));
@@ -44,7 +45,7 @@ void main() {
   double size_m = double(tree.stepLength_m) * double(levelSteps(job.level));
   float cell_m = float(size_m) / 7.0;
   dvec3 start = dvec3(job.x, job.y, job.z) / tree.stepsPerMetre - tree.half_m + dvec3(l) * (size_m / double(3.0));
-  s_far[l.z][l.y][l.x] = sunDepth(start, kNearCells * cell_m);
+  s_far[l.z][l.y][l.x] = encodeDepth(sunDepth(start, kNearCells * cell_m));
   barrier();
   float perSample = tree.maxExtinction_per_m * cell_m * kNearCells / float(kNearSamples);
   float reach_m = length(vec3(start) - tree.mapCentre.xyz) + 2.0 * float(size_m);  // every sample is nearer than this
@@ -54,7 +55,7 @@ void main() {
   for (uint k = 0u; k < 8u; ++k) {
     uvec3 i = l * 2u + uvec3(k & 1u, (k >> 1u) & 1u, k >> 2u);
     walk.origin = brickSample(uvec3(job.x, job.y, job.z), job.level, i);
-    float depth = farDepth(i) + perSample * nearSum(walk, job.level, cell_m, mapLevel);
+    float depth = decodeDepth(farDepth(i)) + perSample * nearSum(walk, job.level, cell_m, mapLevel);
     storeTexel(tree, job.brick, i, vec2(loadTexel(tree, job.brick, i).x, encodeDepth(depth)));
   }
 }

@@ -61,7 +61,7 @@ struct FrameStats {
   double sampleDetail = 0;
   double exposure_ev = 0;  // at which the picture is shown: of the view, of the scene, or metered
   std::string leftOut;     // why all but the background was left out of this frame, or all of it (LeftOut::name); empty: it was drawn
-  double lightStale_deg = 0;  // between the sun and where it stood when the oldest light in the tree was asked for
+  double lightStale_deg = 0;  // between the sun and where it stood when the oldest light that rays sample was asked for
   double skyProgress = 1;  // of the light of a changed air (Renderer::setAir), 0..1; 1: it is shown
 };
 
@@ -87,7 +87,8 @@ class Renderer {
   // Streams (draws nothing) until nothing is pending for this view, then returns. `progress` gets 0..1 and may return false to stop.
   FrameStats settle(const View& view, const std::function<bool(double)>& progress = {});
   // The scene's time from the next picture on: the sun goes with the planet's day, clouds with their mean wind (physics/scene_time.h).
-  // Light of clouds follows brick by brick, a frame's worth each; FrameStats::lightStale_deg says how far.
+  // Light of clouds follows brick by brick, a frame's worth each; FrameStats::lightStale_deg says how far. With onlyView the plan stays that
+  // of RenderSettings::time_s: by night it may have left out what a day needs.
   void setTime(double time_s);
   // Planet's albedo, atmosphere, sun and mean wind from now on. Where the sun stands changes at once, as with setTime(). For the rest, Recompute: the old
   // light is drawn until the new one is there; each frame works on it for sky_ms. Keep: at once, and what is scattered more than once stays

@@ -79,7 +79,7 @@ struct FrameEdits {
   std::vector<NodeWrite> nodes;
   std::vector<DirtyNode> dirty;
   std::vector<BrickJob> light;           // bricks that the node writes of this frame made visible, or some frames ago: once more
-  glm::dvec3 oldestSun{0};               // where the sun stood when the oldest light in the tree was asked for; 0: there is none
+  glm::dvec3 oldestSun{0};               // where the sun stood when the oldest light that rays sample was asked for; 0: no sun
   float sampleDetail = 1;                // K: a ray samples level L up to K * nodeSize(L) away; resident by construction
   float sampleNear_m = 0;                // nearer than this a ray samples as if it were this far: a fast camera cannot refine its feet
   float bandBase_m = 0, bandTop_m = 0;   // altitudes that resident, non-zero data fills
