@@ -51,8 +51,11 @@ def differs(a, b):
 
 def start(c):
     w = c.window(wait=False)
-    state = w.wait_for(lambda s: s["pictures"] > 0) or {}
     used = w.cpu_s()
+    while w.alive() and used < PATIENCE_S and not any("first picture after" in line for line in w.logged()):  # at once; the state comes later
+        time.sleep(0.02)
+        used = w.cpu_s()
+    state = w.wait_for(lambda s: s["pictures"] > 0) or {}
     w.find()
     first = state.get("first_picture_s", -1)
     if c.quick:  # beside other programs the clock says little
@@ -106,7 +109,7 @@ def fly(c):
            way(orbit) > 1000 and abs(orbit["altitude_m"] / moved["altitude_m"] - 1) < 1e-3)
     w.move(200, 150)
     w.xdotool("click", "4")
-    faster = w.wait_for(lambda s: abs(s["speed_factor"] - 1.25) < 1e-9, 20)
+    faster = w.wait_for(lambda s: abs(s["speed_factor"] - 1.25) < 1e-9)
     c.line("speed after a notch of the wheel", w.state()["speed_factor"], "1.25", faster is not None)
     w.key("Home")
     home = w.wait_for(lambda s: math.dist(s["view"]["position_m"], before["view"]["position_m"]) < 1)
@@ -145,10 +148,10 @@ def panels(c):
     dragged = w.until(lambda: w.drag(x, y, x0 + 0.3 * (x1 - x0), y), lambda s: s["quality"]["step"] < first)
     c.line("step after a drag", w.state()["quality"]["step"], f"below {first:g}", dragged is not None)
     w.key("ctrl+z")
-    undone = w.wait_for(lambda s: s["quality"]["step"] == first, 20)
+    undone = w.wait_for(lambda s: s["quality"]["step"] == first)
     c.line("step after undo", w.state()["quality"]["step"], f"{first:g}", undone is not None)
     w.key("ctrl+shift+z")
-    again = w.wait_for(lambda s: s["quality"]["step"] < first, 20)
+    again = w.wait_for(lambda s: s["quality"]["step"] < first)
     reset = again and w.until(lambda: w.click(x - 60, y, times=2), lambda s: s["quality"]["step"] == first)
     c.line("step after redo and a double click", w.state()["quality"]["step"], f"{first:g}", reset is not None)
     x0, y0, x1, y1 = w.field("skip empty space")
@@ -165,7 +168,7 @@ def panels(c):
     chosen = w.until(choose, lambda s: s["quality"]["step_rule"] != rule)
     c.line("step rule after a choice", w.state()["quality"]["step_rule"], f"not {rule}", chosen is not None)
     w.key("ctrl+z", "ctrl+z")
-    back = w.wait_for(lambda s: s["quality"]["skip_empty"] and s["quality"]["step_rule"] == rule, 20)
+    back = w.wait_for(lambda s: s["quality"]["skip_empty"] and s["quality"]["step_rule"] == rule)
     c.line("both after undo", back is not None, "as they were", back is not None)
     c.shared = w  # the tree is there by now
 
@@ -407,7 +410,7 @@ def places(c):
     def opened(there):
         """The window, and its x, y, width and height once it is there (or after a while)."""
         w = c.window(*SMALL, size=None, config=config)
-        end = time.time() + 20
+        end = time.time() + PATIENCE_S
         while True:
             text = w.xdotool("getwindowgeometry", "--shell", w.id or "0")
             found = dict(line.split("=") for line in text.split() if "=" in line)

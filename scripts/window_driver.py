@@ -150,7 +150,7 @@ class Window:
 
     def field(self, name):
         """x0, y0, x1, y1 of a field of the panels, once it is there."""
-        state = self.wait_for(lambda s: name in s["fields"], 20)
+        state = self.wait_for(lambda s: name in s["fields"])
         return state["fields"][name] if state else None
 
     def press(self, name):
@@ -225,7 +225,7 @@ class Window:
 
     def capture(self, path=None, until=None):
         """The screen's pixels, once `until` holds of them (or after a while)."""
-        end = time.time() + 20
+        end = time.time() + PATIENCE_S
         pixels = self.screen.pixels()
         while until and not until(pixels) and time.time() < end and self.alive():
             time.sleep(0.05)
