@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the recorded flights: orbit to ground, and the two moving benchmark poses. `--check` compares only.
+"""Writes the recorded flights: orbit to ground, the two moving benchmark poses, and an afternoon over the clouds. `--check` compares only.
 
 The descent is smooth in the logarithm of the altitude: the rate of sinking eases in and out and slows down between the
 high and the low clouds; the ground speed is a fixed part of the altitude, so a frame never moves by more than a few
@@ -98,6 +98,14 @@ def moving(pose, metres_a_frame, count=48):
     return frames
 
 
+def afternoon(view, seconds_a_frame=50.0, count=300):
+    """The camera stands and the scene's time runs, 1250 times as fast as the frames, until the sun has set."""
+    frames = moving(view, 0.0, count)
+    for n, f in enumerate(frames):
+        f["time_s"] = n * seconds_a_frame
+    return frames
+
+
 def path_text(scene, frames, warm_up):
     """JSON with a frame a line."""
     head = json.dumps({"scene": scene, "size": SIZE, "time_step_s": TIME_STEP_S, "warm_up": warm_up})[:-1]
@@ -110,5 +118,6 @@ if __name__ == "__main__":
         "benchmarks/orbit-to-ground.json": path_text("orbit-to-ground.scene.json", orbit_to_ground(), 30),
         # as fast as the thesis program flies by default at these altitudes
         "benchmarks/moving-orbit.json": path_text("poses/orbit.json", moving(make_scenes.POSES["orbit"], 7000.0), 30),
+        "benchmarks/day.json": path_text("day.scene.json", afternoon(make_scenes.EARTH_VIEWS["orbit"]), 30),
         "benchmarks/moving-near.json": path_text("poses/near.json", moving(make_scenes.POSES["near"], 100.0), 30),
     })

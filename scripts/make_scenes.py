@@ -145,6 +145,11 @@ def files():
                                       {**EARTH_VIEWS, **ZOOM_VIEWS}),
            "benchmarks/orbit-to-ground.scene.json": scene("orbit to ground", "../data",
                                                           {"budget": "256MiB", "depth": 16, "detail": 36, "seed": 1}, {})}
+    # The sun goes round, and the clouds drift with the westerlies.
+    out["benchmarks/day.scene.json"] = {**out["benchmarks/orbit-to-ground.scene.json"], "name": "an afternoon"}
+    for name in ("scenes/earth.json", "benchmarks/day.scene.json"):
+        out[name] = {**out[name], "sun": {**out[name]["sun"], "day_s": 86_400.0},
+                     "clouds": {**out[name]["clouds"], "wind_east_m_per_s": 10.0}}
     # Depth 24, and more nodes a radian than 90 lines show: only the pixels limit the detail.
     out["benchmarks/error/views.json"] = {**scene("tolerance", "../../data", {"budget": "512MiB", "depth": 24, "detail": 36, "seed": 1}, error_views()),
                                           "sun": sun({"latitude_deg": -20.0, "longitude_deg": -25.0}, 0.0, 90.0)}

@@ -40,11 +40,11 @@ def particles(name, profile, extinction, albedo, share, g):
     return layer(name, profile, scattering, absorption, "henyey-greenstein", g)
 
 
-def sun(distance_au, irradiance=(1.0, 1.0, 1.0)):
-    """Sunlight in units of that at the Earth's mean distance."""
+def sun(distance_au, day_s, irradiance=(1.0, 1.0, 1.0)):
+    """Sunlight in units of that at the Earth's mean distance; day_s: from noon to noon."""
     return {"irradiance": [float(f"{e / distance_au**2:.6g}") for e in irradiance],
             "angular_radius_rad": float(f"{math.asin(SUN_RADIUS_M / (distance_au * ASTRONOMICAL_UNIT_M)):.6g}"),
-            "latitude_deg": 0.0, "longitude_deg": 0.0}
+            "latitude_deg": 0.0, "longitude_deg": 0.0, "day_s": day_s}
 
 
 def at(longitude_deg, altitude_m, heading_deg, pitch_deg, fov_deg=58.0, latitude_deg=0.0, **more):
@@ -76,7 +76,7 @@ def from_space(radius_m, orbit_m, glow_m):
 def clear_earth(atmosphere):
     radius_m = 6_360_000.0
     return {"name": "Earth without clouds", "planet": {"radius_m": radius_m, "albedo": [0.06, 0.07, 0.10]}, "atmosphere": atmosphere,
-            "sun": sun(1.0), "output": {"exposure_ev": "auto", "auto_exposure": {"max_ev": 7.0}},
+            "sun": sun(1.0, 86_400.0), "output": {"exposure_ev": "auto", "auto_exposure": {"max_ev": 7.0}},
             "views": {**from_space(radius_m, 400_000.0, 20_000.0),
                       "ground": ground(40.0, 335.0, 14.0),
                       "sunset": ground(1.5, 270.0, 11.0),
@@ -97,7 +97,7 @@ def mars():
         particles("dust, the rest", exponential(height_m), extinction, albedo, [1 - p for p in peak], 0.45),
     ]
     return {"name": "Mars", "planet": {"radius_m": radius_m, "albedo": [0.30, 0.15, 0.06]},
-            "atmosphere": {"top_m": 120_000.0, "layers": layers}, "sun": sun(1.5237), "output": {"exposure_ev": "auto"},
+            "atmosphere": {"top_m": 120_000.0, "layers": layers}, "sun": sun(1.5237, 88_775.244), "output": {"exposure_ev": "auto"},
             "views": {**from_space(radius_m, 300_000.0, 25_000.0),
                       "ground": ground(35.0, 330.0, 12.0),
                       "sunset": ground(4.0, 270.0, 9.0, fov_deg=50.0),
@@ -119,7 +119,7 @@ def titan():
         particles("detached haze", tent(510_000.0, 25_000.0), [0.6e-7, 0.9e-7, 1.4e-7], [0.98, 0.97, 0.95], [1.0] * 3, 0.5),
     ]
     return {"name": "Titan", "planet": {"radius_m": radius_m, "albedo": [0.17, 0.13, 0.07]},
-            "atmosphere": {"top_m": 600_000.0, "layers": layers}, "sun": sun(9.5826), "output": {"exposure_ev": "auto", "auto_exposure": {"max_ev": 12.0}},
+            "atmosphere": {"top_m": 600_000.0, "layers": layers}, "sun": sun(9.5826, 1_379_690.0), "output": {"exposure_ev": "auto", "auto_exposure": {"max_ev": 12.0}},
             "views": {**from_space(radius_m, 1_500_000.0, 250_000.0),
                       "ground": ground(40.0, 330.0, 12.0),
                       "sunset": ground(3.0, 270.0, 14.0),
@@ -141,7 +141,7 @@ def purple(atmosphere):
          "cover_gain": 1.1, "cell_m": 12_000.0, "gain": 0.55, "billow": 0.7,
          "softness": 0.2, "taper": 0.3, "top_follows_cover": 0.5}]}
     return {"name": "The purple planet", "planet": {"radius_m": radius_m, "albedo": [0.14, 0.08, 0.12]},
-            "atmosphere": {"top_m": 150_000.0, "layers": layers}, "sun": sun(1.0), "clouds": {"sources": [clouds]},
+            "atmosphere": {"top_m": 150_000.0, "layers": layers}, "sun": sun(1.0, 86_400.0), "clouds": {"sources": [clouds]},
             "quality": {"budget": "256MiB", "depth": 14, "detail": 30.0, "seed": 5}, "output": {"exposure_ev": "auto"},
             "views": {**from_space(radius_m, 500_000.0, 40_000.0),
                       "ground": ground(40.0, 330.0, 14.0),
@@ -152,7 +152,7 @@ def purple(atmosphere):
 # No air: sky tables and aerial perspective are left out, and the night side is black.
 def moon():
     radius_m = 1_737_400.0
-    return {"name": "Moon", "planet": {"radius_m": radius_m, "albedo": [0.13, 0.11, 0.09]}, "sun": sun(1.0),
+    return {"name": "Moon", "planet": {"radius_m": radius_m, "albedo": [0.13, 0.11, 0.09]}, "sun": sun(1.0, 2_551_443.0),
             "output": {"exposure_ev": "auto"},
             "views": {**from_space(radius_m, 100_000.0, 0.0),
                       "ground": ground(30.0, 330.0, 2.0),

@@ -2,10 +2,10 @@
 #include "welkin/shared/ground.glsl.h"
 
 // Equirectangular picture, north up, longitude 0 in the middle of its width. pixel_m: footprint of the picture's pixel on the ground.
-vec3 groundAlbedoFrom(sampler2D map, vec3 normal, float radius_m, float pixel_m) {
+vec3 groundAlbedoFrom(sampler2D map, float turn, vec3 normal, float radius_m, float pixel_m) {
   vec2 size = vec2(textureSize(map, 0));
   float level = log2(max(pixel_m * size.y / (kPi * radius_m), 1.0));
-  vec2 uv = vec2(0.5 + atan(normal.y, normal.x) / (2.0 * kPi), 0.5 - asin(clamp(normal.z, -1.0, 1.0)) / kPi);
+  vec2 uv = vec2(0.5 + turn + atan(normal.y, normal.x) / (2.0 * kPi), 0.5 - asin(clamp(normal.z, -1.0, 1.0)) / kPi);
   return textureLod(map, uv, level).rgb;
 }
 

@@ -64,6 +64,7 @@ class Bench {
   Bench(const BenchOptions& options, Start start, Size size) : options_(options), start_(std::move(start)), size_(size) {
     settings_.width = size.width;
     settings_.height = size.height;
+    settings_.time_s = start_.time_s;
     settings_.forced = {"nothing-moves"};  // a frame like the last one is what is measured
   }
 
@@ -268,8 +269,7 @@ class Bench {
 Result<void> bench(const BenchOptions& options) {
   auto start = loadStart(options.scene, options.view);
   if (!start) return start.error();
-  apply(options.common, start->scene);
-  apply(options.common, start->view);
+  apply(options.common, *start);
   if (!options.common.json.empty()) {
     if (auto writable = checkWritableFile(options.common.json); !writable) return writable;
   }

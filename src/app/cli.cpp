@@ -8,6 +8,7 @@
 #include "welkin/core/log.h"
 #include "welkin/core/units.h"
 #include "welkin/physics/scene_io.h"
+#include "welkin/physics/scene_time.h"
 
 namespace welkin::app {
 namespace {
@@ -77,6 +78,12 @@ void addQualityOptions(CLI::App& command, CommonOptions& o) {
   addParsed<ToneCurve>(command, "--tone-curve", namesText(kToneCurveNames), parseName<ToneCurve>(kToneCurveNames),
                        [&o](ToneCurve v) { o.toneCurve = v; });
   addGpuOption(command, o);
+}
+
+void addTimeOption(CLI::App& command, CommonOptions& o) {
+  addParsed<double>(
+      command, "--time", "seconds of the scene's time: where its day has brought the sun, and the wind the clouds",
+      [](const std::string& t) { return parseNumber(t, -kGreatestTime_s, kGreatestTime_s); }, [&o](double v) { o.time_s = v; });
 }
 
 void addToleranceOption(CLI::App& command, CommonOptions& o) {

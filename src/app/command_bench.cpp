@@ -13,6 +13,7 @@ void addBench(CLI::App& app, Action& action) {
   command->add_option("--frames", o->frames, "frames of each kind that the medians are over (default: 30)")->check(CLI::Range(1, 100000));
   command->add_flag("!--no-cold-start", o->coldStart, "do not measure how long a start from an empty tree takes");
   addQualityOptions(*command, o->common);
+  addTimeOption(*command, o->common);
   addOutputOptions(*command, o->common, "write the same and more to this file");
   command->callback([o, &action] {
     action = [o] {

@@ -43,6 +43,7 @@ void addConverge(CLI::App& app, Action& action, const std::string& commandLine) 
                                  "E,F,...: instead of a sweep, what --tolerance picks in every view, against all that it could have picked", parseTolerances,
                                  [tolerances](std::vector<double> v) { *tolerances = std::move(v); });
   addQualityOptions(*command, o->common);
+  addTimeOption(*command, o->common);
   addOutputOptions(*command, o->common, "write the report to this file");
   command->callback([o, tolerances, &action] {
     action = [o, tolerances] {

@@ -8,6 +8,7 @@
 #include "welkin/core/files.h"
 #include "welkin/core/progress.h"
 #include "welkin/core/units.h"
+#include "welkin/physics/scene_time.h"
 #include "welkin/render/frame_plan.h"
 
 namespace welkin::app {
@@ -60,7 +61,7 @@ Result<std::vector<Saving>> measureAll(const PlanOptions& o, const Start& start,
   };
   for (const bool flight : {false, true}) {
     const PlanFor asked = askedFor(start, how.size, flight);
-    for (const LeftOut& reason : planFrame(start.scene, asked).leftOut) {
+    for (const LeftOut& reason : planFrame(atTime(start.scene, start.time_s), asked).leftOut) {
       const bool wanted = o.reasons.empty() || std::find(o.reasons.begin(), o.reasons.end(), reason.name) != o.reasons.end();
       if (wanted && !known(reason.name)) jobs.emplace_back(asked, reason);
     }
@@ -96,13 +97,12 @@ Result<void> runPlan(const PlanOptions& o) {
   beginCommand(o.common);
   auto start = loadStart(o.input, o.view);
   if (!start) return start.error();
-  apply(o.common, start->scene);
-  apply(o.common, start->view);
+  apply(o.common, *start);
   const Size size = o.common.size.value_or(o.measure ? Size{320, 180} : start->size);
   if (!o.common.json.empty()) {
     if (auto writable = checkWritableFile(o.common.json); !writable) return writable;
   }
-  const FramePlan plan = planFrame(start->scene, askedFor(*start, size, o.flight));
+  const FramePlan plan = planFrame(atTime(start->scene, start->time_s), askedFor(*start, size, o.flight));
   Json out{{"scene", o.input.generic_string()},
            {"view", start->viewName},
            {"asked", o.flight ? "flight" : "picture"},
@@ -146,6 +146,7 @@ void addPlan(CLI::App& app, Action& action) {
   command->add_option("--turns", o->how.turns, "how often each side is measured (default: 3)")->check(CLI::Range(1, 1000));
   command->add_option("--frames", o->how.frames, "frames of each turn after the first picture (default: 8)")->check(CLI::Range(1, 1000));
   addQualityOptions(*command, o->common);
+  addTimeOption(*command, o->common);
   addOutputOptions(*command, o->common, "write the plan, and what was measured, to this file");
   command->callback([o, &action] { action = [o] { return runPlan(*o); }; });
 }

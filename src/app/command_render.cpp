@@ -60,8 +60,7 @@ Result<void> runRender(const RenderOptions& o) {
   const auto begin = std::chrono::steady_clock::now();
   auto start = loadStart(o.input, o.view);
   if (!start) return start.error();
-  apply(o.common, start->scene);
-  apply(o.common, start->view);
+  apply(o.common, *start);
   const Size size = o.common.size.value_or(start->size);
   if (auto writable = checkWritableFile(o.output); !writable) return writable;
   if (!o.common.json.empty()) {
@@ -73,6 +72,7 @@ Result<void> runRender(const RenderOptions& o) {
   settings.width = size.width;
   settings.height = size.height;
   settings.onlyView = start->view;
+  settings.time_s = start->time_s;
   settings.linear = o.common.tolerance_255 || kindOfName(o.output) == PictureKind::Exr;
   if (o.debug == DebugView::History) settings.forced.insert("one-picture");
   auto stage = openStage(start->scene, settings, o.common.gpu);
@@ -156,6 +156,7 @@ void addRender(CLI::App& app, Action& action) {
   addParsed<DebugView>(*command, "--debug", "a picture in false colours: " + namesText(kDebugViewNames), parseName<DebugView>(kDebugViewNames),
                        [o](DebugView v) { o->debug = v; });
   addQualityOptions(*command, o->common);
+  addTimeOption(*command, o->common);
   addToleranceOption(*command, o->common);
   addOutputOptions(*command, o->common, "write times, residency and counters to this file");
   command->callback([o, &action] { action = [o] { return runRender(*o); }; });

@@ -36,6 +36,7 @@ Result<Poses> posesOfPath(const ConvergeOptions& options) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t frame = (2 * i + 1) * frames / (2 * count);  // in the middle of equal parts
     out.views.push_back(path->frames[frame].view);
+    out.times_s.push_back(path->frames[frame].time_s);
     auto& before = out.before.emplace_back();
     for (std::size_t k = frame - std::min(frame, kFramesBefore); k < std::max<std::size_t>(frame, 1); ++k)
       before.push_back(path->frames[k].view);
@@ -48,7 +49,8 @@ Result<Poses> posesOfPath(const ConvergeOptions& options) {
 Result<Poses> loadPoses(const ConvergeOptions& options) {
   Poses out;
   if (isPath(options.input)) {
-    if (!options.view.empty()) return Error{fmt::format("{}: a path has its own views", options.input.string())};
+    if (!options.view.empty() || options.common.time_s)
+      return Error{fmt::format("{}: a path has its own views and times", options.input.string())};
     auto poses = posesOfPath(options);
     if (!poses) return poses;
     out = std::move(*poses);
@@ -59,6 +61,7 @@ Result<Poses> loadPoses(const ConvergeOptions& options) {
     out.size = start->size;
     out.name = start->viewName;
     out.views = {start->view};
+    out.times_s = {options.common.time_s.value_or(start->time_s)};
   }
   if (!out.scene.clouds)
     return Error{fmt::format("{}: expected clouds: without them there is no march to measure", options.input.string())};
@@ -101,10 +104,11 @@ Result<void> Trees::open(const ConvergeSetting& setting) {
   return {};
 }
 
-Result<void> Trees::settle(const View& view, const std::function<bool(double)>& progress) {
+Result<void> Trees::settle(const View& view, double time_s, const std::function<bool(double)>& progress) {
   double done = 0;
   for (auto& [key, tree] : trees_) {
     bool stopped = false;
+    tree.renderer->setTime(time_s);
     const FrameStats stats = tree.renderer->settle(view, [&](double f) {
       stopped = !progress((done + f) / double(trees_.size()));
       return !stopped;

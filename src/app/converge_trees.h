@@ -16,6 +16,7 @@ struct Poses {
   Size size;
   std::string name;
   std::vector<View> views;
+  std::vector<double> times_s;  // of the scene, for each
   std::vector<std::vector<View>> before;  // of a path: the frames that lead to each pose, oldest first; else empty
 };
 Result<Poses> loadPoses(const ConvergeOptions& options);
@@ -27,7 +28,7 @@ class Trees {
   Result<void> open(const measure::ConvergeSetting& setting);  // nothing to do if a setting before asked for the same tree
   Renderer& of(const measure::ConvergeSetting& setting) { return *trees_.at(key(setting)).renderer; }
   const FrameStats& settled(const measure::ConvergeSetting& setting) const { return trees_.at(key(setting)).settled; }  // the first time
-  Result<void> settle(const View& view, const std::function<bool(double)>& progress);  // all of them; progress returns false to stop
+  Result<void> settle(const View& view, double time_s, const std::function<bool(double)>& progress);  // all of them; progress returns false to stop
   void close() { trees_.clear(); }
   bool software() const { return context_->device().software; }
   gpu::Context& context() const { return *context_; }

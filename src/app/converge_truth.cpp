@@ -89,8 +89,8 @@ Result<TruthPicture> drawTruth(Renderer& renderer, const View& view, Size size, 
   if (!source) return source.error();
   reference::SourceSettings rays;
   rays.detail = {renderer.shownDetail(view) * 2 * root.half_m, std::uint32_t(settings.quality.depth), 0};
-  rays.eye_planet = view.position_m;
-  rays.towardsSun = renderer.scene().sun ? renderer.scene().sun->direction_planet : glm::dvec3(0, 0, 1);
+  rays.eye_planet = renderer.inClouds(view).position_m;
+  rays.towardsSun = renderer.sunInClouds();
   return integrated(reference::SourceField(**source, root, rays), renderer, view, size, settings, progress);
 }
 

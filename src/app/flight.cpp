@@ -37,6 +37,7 @@ class Replay {
 
   Result<measure::TimingReport> run() {
     const auto start = std::chrono::steady_clock::now();
+    settings_.time_s = pose(plan_.first).time_s;
     go(0, "opening the scene");
     auto stage = openStage(plan_.scene, settings_, options_.common.gpu);
     if (!stage) return stage.error();
@@ -128,6 +129,7 @@ class Replay {
 
   Result<void> drawFrame(int frame, VideoWriter* video) {
     const View& view = pose(frame).view;
+    stage_.renderer->setTime(pose(frame).time_s);
     // The first frame has no tree before it.
     const bool pop = options_.pop && frame > plan_.first && frame >= options_.pop->first && frame < options_.pop->end.value_or(plan_.end);
     Image8 before;
@@ -191,6 +193,7 @@ class Replay {
       const auto& [frame, exposure_ev, image] = qualityImages_[i];
       View view = pose(frame).view;
       view.exposure_ev = exposure_ev;  // as the flight had adapted
+      (*reference)->setTime(pose(frame).time_s);
       const auto drawn = drawConverged(**reference, view, [&, frame = frame](double f) {
         const double part = (double(i) + f) / double(qualityImages_.size());
         return go(flightShare() + (1 - flightShare()) * part, fmt::format("converged, frame {}", frame));

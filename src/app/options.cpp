@@ -102,6 +102,12 @@ void apply(const CommonOptions& options, View& view) {
   if (options.exposure) view.exposure_ev.reset();
 }
 
+void apply(const CommonOptions& options, Start& start) {
+  apply(options, start.scene);
+  apply(options, start.view);
+  start.time_s = options.time_s.value_or(start.time_s);
+}
+
 Result<Start> loadStart(const std::filesystem::path& file, const std::string& viewName) {
   Start start;
   auto head = readFile(file);

@@ -78,6 +78,7 @@ Result<Saving> measureReason(gpu::Context& context, const Start& start, const Pl
   RenderSettings settings;
   settings.width = how.size.width, settings.height = how.size.height;
   settings.timing = false;
+  settings.time_s = start.time_s;
   settings.linear = asked.linear;
   settings.forced = asked.forced;
   if (asked.onePicture) settings.onlyView = asked.view;

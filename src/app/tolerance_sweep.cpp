@@ -171,6 +171,7 @@ Result<void> toleranceSweep(const ToleranceSweepOptions& o) {
   RenderSettings settings;
   settings.width = size.width, settings.height = size.height;
   settings.reprojection = false;
+  settings.time_s = start->time_s;
   auto stage = openStage(start->scene, settings, o.common.gpu);
   if (!stage) return stage.error();
   measure::ReportContext context = describeRun(start->scene, size);

@@ -97,6 +97,7 @@ Json frameJson(const FrameRow& row) {
   out["pending_bricks"] = s.residency.pendingBricks;
   out["bricks_generated"] = s.bricksGenerated;
   out["bricks_lit"] = s.bricksLit;
+  out["light_stale_deg"] = s.lightStale_deg;
   out["bytes"] = s.bytesUsed;
   out["cpu_bytes"] = s.residency.cpuBytes;
   out["sample_detail"] = s.sampleDetail;

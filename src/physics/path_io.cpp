@@ -4,6 +4,7 @@
 
 #include "scene_io_json.h"
 #include "welkin/core/files.h"
+#include "welkin/physics/scene_time.h"
 
 namespace welkin {
 namespace fs = std::filesystem;
@@ -38,7 +39,7 @@ FlightPath readPath(const JsonPlace& p, const fs::path& baseFolder) {
     frame.view.position_m = f.at("position_m").vec3({-detail::kFarthest_m, detail::kFarthest_m});
     frame.view.orientation = f.at("orientation_xyzw").orientation();
     frame.view.fov_deg = f.numberOr("fov_deg", frame.view.fov_deg, detail::kFovRange_deg);
-    frame.time_s = f.numberOr("time_s", double(i) * out.timeStep_s, {-detail::kGreatestTime_s, detail::kGreatestTime_s});
+    frame.time_s = f.numberOr("time_s", double(i) * out.timeStep_s, {-kGreatestTime_s, kGreatestTime_s});
     if (f.has("exposure_ev")) frame.view.exposure_ev = f.at("exposure_ev").number(detail::kExposureRange_ev);
     out.frames.push_back(frame);
   }

@@ -93,7 +93,7 @@ struct Reader {
   }
 
   Sun sun(const JsonPlace& p) const {
-    p.object({"irradiance", "angular_radius_rad", "direction", "latitude_deg", "longitude_deg", "utc"});
+    p.object({"irradiance", "angular_radius_rad", "direction", "latitude_deg", "longitude_deg", "utc", "day_s"});
     Sun out;
     if (p.has("irradiance")) out.irradiance = p.at("irradiance").spectrum({0, 1e9});
     out.angularRadius_rad = p.numberOr("angular_radius_rad", out.angularRadius_rad, {0, 0.5});
@@ -107,7 +107,9 @@ struct Reader {
       if (!days) p.at("utc").failPlain(days.error().message);
       const auto point = subsolarPoint(*days);
       out.direction_planet = directionTo(point.latitude_deg, point.longitude_deg);
+      out.day_s = 86'400;
     }
+    out.day_s = p.numberOr("day_s", out.day_s, {-1e12, 1e12});
     return out;
   }
 
@@ -167,12 +169,13 @@ struct Reader {
   }
 
   Clouds clouds(const JsonPlace& p) const {
-    p.object({"sources", "combine"});
+    p.object({"sources", "combine", "wind_east_m_per_s"});
     Clouds out;
     const JsonPlace sources = p.at("sources");
     const auto n = sources.array(1, 16);
     for (std::size_t i = 0; i < n; ++i) out.sources.push_back(cloudSource(sources.item(i)));
     if (p.has("combine")) out.combineMax = p.at("combine").choice({"max", "add"}) == "max";
+    out.windEast_m_per_s = p.numberOr("wind_east_m_per_s", out.windEast_m_per_s, {-1e5, 1e5});
     return out;
   }
 

@@ -79,7 +79,6 @@ nlohmann::ordered_json writeView(const View& view);
 bool aboveGround(glm::dvec3 position_m, double planetRadius_m);
 
 constexpr double kFarthest_m = 1e12;  // of any position: past the planets
-constexpr double kGreatestTime_s = 1e12;
 constexpr Range kFovRange_deg{0.0001, 179.9};
 constexpr Range kExposureRange_ev{-40, 40};
 

@@ -108,15 +108,18 @@ std::string sceneToJson(const Scene& scene, const fs::path& baseFolder, int inde
     for (const auto& layer : scene.atmosphere->layers) out["atmosphere"]["layers"].push_back(writer.airLayer(layer));
   }
   if (scene.sun) {
-    const auto& d = scene.sun->direction_planet;
-    out["sun"]["irradiance"] = scene.sun->irradiance;
-    out["sun"]["angular_radius_rad"] = scene.sun->angularRadius_rad;
-    out["sun"]["direction"] = Json::array({d.x, d.y, d.z});
+    const auto& [irradiance, angularRadius_rad, direction, day_s] = *scene.sun;
+    out["sun"]["irradiance"] = irradiance;
+    out["sun"]["angular_radius_rad"] = angularRadius_rad;
+    out["sun"]["direction"] = Json::array({direction.x, direction.y, direction.z});
+    out["sun"]["day_s"] = day_s;
   }
   if (scene.clouds) {
+    const auto& [sources, combineMax, windEast_m_per_s] = *scene.clouds;
     out["clouds"]["sources"] = Json::array();
-    for (const auto& source : scene.clouds->sources) out["clouds"]["sources"].push_back(writer.cloudSource(source));
-    out["clouds"]["combine"] = scene.clouds->combineMax ? "max" : "add";
+    for (const auto& source : sources) out["clouds"]["sources"].push_back(writer.cloudSource(source));
+    out["clouds"]["combine"] = combineMax ? "max" : "add";
+    out["clouds"]["wind_east_m_per_s"] = windEast_m_per_s;
   }
   for (const auto& [name, view] : scene.views) out["views"][name] = detail::writeView(view);
   const auto& [budget_bytes, depth, integrator, stepRule, step, skipEmpty, spread, detail, seed] = scene.quality;

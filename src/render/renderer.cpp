@@ -14,6 +14,7 @@
 #include "render/albedo_picture.h"
 #include "render/tree/resident_tree.h"
 #include "welkin/clouds/opaque_deck.h"
+#include "welkin/physics/scene_time.h"
 #include "welkin/render/composite/composite_pass.h"
 #include "welkin/render/exposure/exposure_pass.h"
 #include "welkin/render/sky/sky_tables.h"
@@ -34,8 +35,10 @@ constexpr std::uint64_t kSmallBuffers = 4096;    // camera block, counters and t
 // A voxel is node / 7: at the far end of its level's range it is kVoxelPixels wide, at the near end twice that.
 double pixelDetail(const ViewFrame& view, int height) { return height / (2 * view.tanY * 7 * kVoxelPixels); }
 
-SelectionCamera selectionCamera(const ViewFrame& view, int height) {
-  return {view.position_m, view.forward, view.right, view.up, view.tanY, view.tanX, pixelDetail(view, height)};
+// most: nodes a radian that are sampled at most; 0: as many as pixels show.
+SelectionCamera selectionCamera(const ViewFrame& view, int height, double most) {
+  const double pixels = pixelDetail(view, height);
+  return {view.position_m, view.forward, view.right, view.up, view.tanY, view.tanX, most > 0 ? std::min(pixels, most) : pixels};
 }
 
 std::uint64_t treeBudget(const Scene& scene, const gpu::MemoryAccount& account, std::uint64_t brickPassBytes) {
@@ -47,14 +50,18 @@ std::uint64_t treeBudget(const Scene& scene, const gpu::MemoryAccount& account, 
 
 struct Renderer::Impl {
   Impl(gpu::Context& c, const Scene& s, const RenderSettings& r)
-      : context(c), scene(sceneFor(s, r.forced)), settings(r), plan(planFrame(s, planFor())), account(s.quality.budget_bytes),
-        timer(c.device().software) {
+      : context(c), given(sceneFor(s, r.forced)), settings(r), wind_rad(windTurn_rad(given, r.time_s)), scene(inClouds(given)),
+        plan(planFrame(inClouds(s), planFor())), account(s.quality.budget_bytes), timer(c.device().software) {
     timer.enabled = r.timing;
   }
 
   gpu::Context& context;
-  Scene scene;
+  Scene given;
   RenderSettings settings;
+  // All is drawn in the frame in which the clouds rest: the planet's, turned by their mean wind. Air is the same all around; only the
+  // ground's picture knows of it.
+  double wind_rad;  // eastwards
+  Scene scene;      // as given, with the sun where it stands now in that frame
   FramePlan plan;
   gpu::MemoryAccount account;   // outlives everything charged to it
   gpu::PassTimer timer;
@@ -83,14 +90,21 @@ struct Renderer::Impl {
   std::vector<std::string> notes;
 
   PlanFor planFor() const {
-    return {settings.onlyView, settings.onlyView.has_value(), settings.linear, double(settings.width) / settings.height, settings.forced};
+    const std::optional<View> view = settings.onlyView ? std::optional(turned(*settings.onlyView, -wind_rad)) : std::nullopt;
+    return {view, view.has_value(), settings.linear, double(settings.width) / settings.height, settings.forced};
   }
+  Scene inClouds(Scene out) const {
+    if (out.sun) out.sun->direction_planet = turned(sunAt(*out.sun, settings.time_s), -wind_rad);
+    return out;
+  }
+  void placeSun();
   Result<void> create();
   void note(std::string line) { notes.push_back(std::move(line)); }
   double shellTop_m() const { return plan.air ? airTop_m(scene) : source ? std::max(source->top_m(), 1.0) : 1.0; }
   void ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap);
   void apply(FrameEdits&& edits, glm::dvec3 camera_planet, FrameStats& stats, bool lightNow = true);
   float greatestDetail = 1e6f;      // of this picture's pixels
+  bool sunMoved = false;            // since the last frame
   bool away = false;                // the last frame was drawn bare: nothing is streamed since
   std::optional<View> shown;        // of the last frame
   std::uint64_t shownNan = 0;
@@ -100,7 +114,7 @@ struct Renderer::Impl {
   void workOnSky();
   void useAir(const Scene& changed);
   Result<void> setAir(const Scene& changed, AirChange how);
-  ViewFrame frameOf(const View& view) const { return viewFrame(view, scene.planet.radius_m, shellTop_m(), settings.width, settings.height); }
+  ViewFrame frameOf(const View& view) const { return viewFrame(turned(view, -wind_rad), scene.planet.radius_m, shellTop_m(), settings.width, settings.height); }
   FrameCounters counted() const;  // since beginPicture()
   void drawAside(const View& view, const std::function<void()>& march);  // a picture that leaves history, tree and exposure alone
   void beginPicture(const ViewFrame& frame, bool bare = false);  // camera, counters, sky
@@ -146,6 +160,7 @@ Result<void> Renderer::Impl::create() {
   auto compositePass = CompositePass::create(account, scene, CompositeParts(plan), settings.width, settings.height, albedo.width ? &albedo : nullptr);
   if (!compositePass) return compositePass.error();
   composite.emplace(std::move(*compositePass));
+  composite->use(scene, wind_rad);
   if (plan.metered) {
     auto exposurePass = ExposurePass::create(account, scene);
     if (!exposurePass) return exposurePass.error();
@@ -178,7 +193,6 @@ Result<void> Renderer::Impl::create() {
   stream.groupCapacity = layout.groups;
   stream.detailLimit = scene.quality.detail;
   if (!settings.forced.contains("overcast")) stream.deck = opaqueDeck(scene);
-  if (plan.sun && scene.sun) stream.toSun = scene.sun->direction_planet;
   streamer = std::make_unique<Streamer>(*source, root, stream, settings.workerJitterSeed);
   updateTreeBlock({0, 0, 0});
   return {};
@@ -205,10 +219,11 @@ void Renderer::Impl::updateTreeBlock(glm::dvec3 camera_planet) {
 void Renderer::Impl::ask(const ViewFrame& view, std::uint32_t maxBricks, bool snap) {
   FrameInput input;
   input.frame = step;
-  input.camera = selectionCamera(view, settings.height);
+  input.camera = selectionCamera(view, settings.height, scene.quality.detail);
   input.maxBricks = maxBricks;
-  input.detailLimit = settings.spareDetail * input.camera.pixelDetail;
+  input.detailLimit = settings.spareDetail * pixelDetail(view, settings.height);
   input.snap = snap;
+  if (plan.sun && scene.sun) input.toSun = scene.sun->direction_planet;
   input.results = bricks->results(step >= kLatency && !snap ? step - kLatency : step);
   asked.push_back(step++);
   streamer->post(std::move(input));
@@ -259,30 +274,47 @@ void Renderer::Impl::workOnSky() {
 }
 
 void Renderer::Impl::useAir(const Scene& changed) {
-  scene.planet.albedo = changed.planet.albedo, scene.atmosphere = changed.atmosphere, scene.sun = changed.sun;
-  composite->use(scene);
+  given.planet.albedo = changed.planet.albedo, given.atmosphere = changed.atmosphere, given.sun = changed.sun;
+  if (given.clouds && changed.clouds) given.clouds->windEast_m_per_s = changed.clouds->windEast_m_per_s;
+  wind_rad = windTurn_rad(given, settings.time_s);
+  scene.planet.albedo = given.planet.albedo, scene.atmosphere = given.atmosphere, scene.sun = given.sun;
+  placeSun();
+}
+
+void Renderer::Impl::placeSun() {
+  const Sun before = scene.sun.value_or(Sun{});
+  if (given.sun) scene.sun->direction_planet = inClouds(given).sun->direction_planet;
+  sunMoved |= scene.sun && scene.sun->direction_planet != before.direction_planet;
+  composite->use(scene, wind_rad);
   stillFrames = 0, marchedFrames = 0;
 }
 
 Result<void> Renderer::Impl::setAir(const Scene& changed, AirChange how) {
-  Scene next = scene;
+  const Scene& latest = nextSky ? nextSky->scene : given;
+  Scene next = latest;
   next.planet.albedo = changed.planet.albedo;
   next.atmosphere = changed.atmosphere;
   next.sun = changed.sun;
+  if (next.clouds && changed.clouds) next.clouds->windEast_m_per_s = changed.clouds->windEast_m_per_s;
   const FramePlan nextPlan = planFrame(next, planFor());
   if (nextPlan.air != plan.air || nextPlan.sun != plan.sun) return Error{"air or a sun that come or go need a new start"};
-  if (plan.clouds && plan.sun && next.sun->direction_planet != scene.sun->direction_planet)
-    return Error{"a sun that moves needs a new start: clouds keep its light"};
-  if (sky) {
+  const bool sameSun = !next.sun || (latest.sun && next.sun->irradiance == latest.sun->irradiance &&
+                                     next.sun->angularRadius_rad == latest.sun->angularRadius_rad);
+  // Tables are for any place of the sun.
+  if (sky && !(sameSun && next.planet.albedo == latest.planet.albedo && next.atmosphere == latest.atmosphere)) {
     auto tables = how == AirChange::Keep ? SkyTables::withField(account, next, *sky, plan.everyHarmonic)
                                          : SkyTables::begin(account, next, SkyOrders::All, plan.everyHarmonic);
     if (!tables) return tables.error();
     nextSky.reset();
-    if (how == AirChange::Recompute) {
+    if (how == AirChange::Recompute)
       nextSky.emplace(NextSky{std::move(*tables), std::move(next)});
-      return {};
-    }
-    sky = std::move(*tables);
+    else
+      sky = std::move(*tables);
+  }
+  if (nextSky) {  // the sun goes before its new light
+    nextSky->scene.sun = changed.sun, nextSky->scene.clouds = next.clouds;
+    next = given, next.clouds = nextSky->scene.clouds;
+    if (next.sun) next.sun->direction_planet = changed.sun->direction_planet, next.sun->day_s = changed.sun->day_s;
   }
   useAir(next);
   return {};
@@ -337,6 +369,8 @@ FrameStats Renderer::Impl::report(FrameStats stats) const {
   stats.bytesUsed = account.used();
   stats.bytesBudget = account.budget();
   stats.frameTargetBytes = account.frameTargets();
+  if (plan.clouds && plan.sun && scene.sun && last.oldestSun != glm::dvec3(0))
+    stats.lightStale_deg = glm::degrees(2 * std::asin(std::min(glm::length(last.oldestSun - scene.sun->direction_planet) / 2, 1.0)));
   stats.skyProgress = nextSky ? nextSky->tables.progress() : 1;
   return stats;
 }
@@ -355,7 +389,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Context& context, const 
 bool Renderer::Impl::bareNow(const View& view, FrameStats& stats) {
   if (!plan.air && !plan.clouds) return false;
   PlanFor now = planFor();
-  now.view = view;
+  now.view = turned(view, -wind_rad);
   const auto unseen = nothingSeen(scene, now);
   if (!unseen || !composite->prepareBare()) return false;
   stats.leftOut = unseen->name;
@@ -442,7 +476,7 @@ FrameStats Renderer::frame(const View& view, FrameMode mode, double sinceLast_s)
       r.apply(std::move(nothing), frame.position_m, stats);
     }
     r.tree->bind();
-    r.clouds->run(frame, mode, r.scene, r.seen_ev(view), treeChanged || !r.last.stats.settled, r.timer);
+    r.clouds->run(frame, mode, r.scene, r.seen_ev(view), treeChanged || std::exchange(r.sunMoved, false) || !r.last.stats.settled, r.timer);
     stats.bricksGenerated += static_cast<std::uint32_t>(generate.size());
     r.endPicture(frame, view, sinceLast_s);
     if (r.debug) r.drawDebug(frame, view, r.clouds->turn());
@@ -513,6 +547,19 @@ FrameStats Renderer::settle(const View& view, const std::function<bool(double)>&
 }
 
 Result<void> Renderer::setAir(const Scene& changed, AirChange how) { return impl_->setAir(changed, how); }
+
+void Renderer::setTime(double time_s) {
+  Impl& r = *impl_;
+  const double wind_rad = windTurn_rad(r.given, time_s);
+  const bool moves = wind_rad != r.wind_rad || (r.given.sun && sunAt(*r.given.sun, time_s) != sunAt(*r.given.sun, r.settings.time_s));
+  r.settings.time_s = time_s;
+  r.wind_rad = wind_rad;
+  if (moves) r.placeSun();
+}
+
+View Renderer::inClouds(const View& view) const { return turned(view, -impl_->wind_rad); }
+glm::dvec3 Renderer::sunInClouds() const { return impl_->scene.sun ? impl_->scene.sun->direction_planet : glm::dvec3(0, 0, 1); }
+
 Result<void> Renderer::setMarch(const Quality& quality) {
   Impl& r = *impl_;
   Quality next = r.scene.quality;
@@ -521,6 +568,7 @@ Result<void> Renderer::setMarch(const Quality& quality) {
   if (r.clouds)
     if (auto used = r.clouds->use(r.account, next); !used) return used;
   const Quality was = std::exchange(r.scene.quality, next);
+  r.given.quality = next;
   r.stillFrames = 0, r.marchedFrames = 0;
   const bool other = was.integrator != next.integrator || was.stepRule != next.stepRule || was.skipEmpty != next.skipEmpty;
   return r.debug && other ? r.useDebugView(r.debug->view()) : Result<void>{};
@@ -539,7 +587,7 @@ Result<void> Renderer::setOutput(const Output& output) {
   }
   if (plan.metered != r.plan.metered || output.toneCurve != r.scene.output.toneCurve)
     if (auto used = r.composite->useOutput(CompositeParts(plan), output.toneCurve); !used) return used;
-  r.scene.output = output;
+  r.scene.output = r.given.output = output;
   r.plan = plan;
   r.exposure.reset();
   if (exposure) r.exposure.emplace(std::move(*exposure));
@@ -649,7 +697,7 @@ ImageF Renderer::radiance() const {
 }
 
 const FramePlan& Renderer::plan() const { return impl_->plan; }
-const Scene& Renderer::scene() const { return impl_->scene; }
+const Scene& Renderer::scene() const { return impl_->given; }
 const gpu::MemoryAccount& Renderer::memory() const { return impl_->account; }
 
 std::vector<std::string> Renderer::notes() const {

@@ -29,7 +29,7 @@ struct StreamState::Impl {
         settings(streamSettings),
         tree(streamSettings.groupCapacity, streamSettings.brickCapacity),
         jobs(tree),
-        relight(streamSettings.toSun, streamSettings.brickCapacity) {
+        relight(streamSettings.brickCapacity) {
     if (settings.depth < 1 || settings.depth > shared::kMaxDepth) throw std::invalid_argument("octree: the depth must be 1 to 24");
     selectionSettings = {settings.depth,       settings.brickCapacity, settings.groupCapacity,
                          settings.detailLimit, kMaxNewGroups,          source.emptyFrom()};
@@ -46,8 +46,9 @@ struct StreamState::Impl {
   void publishIfComplete(GroupIndex group);
   bool reselect();
   void followDetail(bool snap);
+  void findSampled(NodeIndex node, const NodeView& view, const NodeView::Seen& above);
   void findBand(NodeIndex node, const NodeView& view, const NodeView::Seen& above);
-  void writeOut(FrameEdits& edits, bool snap, bool idle, std::uint32_t maxBricks);
+  void writeOut(FrameEdits& edits, const FrameInput& input, bool idle);
   ResidencyStats stats(bool settled) const;
 
   const DensitySource& source;
@@ -66,6 +67,7 @@ struct StreamState::Impl {
   double drawnDetail = 0;   // K at which rays sample: that, or what a pixel asks for
   float bandBase_m = 0, bandTop_m = 0;
   Relight relight;
+  std::vector<BrickIndex> sampled;  // bricks that a visible ray may read, while their light is not exact
   std::uint64_t steps = 0;
 };
 
@@ -161,7 +163,21 @@ void StreamState::Impl::findBand(NodeIndex node, const NodeView& view, const Nod
   for (std::uint32_t octant = 0; octant < 8; ++octant) findBand(nodeOf(n.children, octant), view, seen);
 }
 
-void StreamState::Impl::writeOut(FrameEdits& edits, bool snap, bool idle, std::uint32_t maxBricks) {
+// A level is sampled up to K times its size away, and from 3/8 of that on, or as far as there is no finer one.
+void StreamState::Impl::findSampled(NodeIndex node, const NodeView& view, const NodeView::Seen& above) {
+  const Node& n = tree.node(node);
+  if (!(n.joined.max > 0)) return;
+  const NodeAddress at = tree.address(node);
+  const NodeView::Seen seen = view.look(at, above);
+  const double reach_m = drawnDetail * root.nodeSize_m(at.level);
+  if (!seen.visible() || (seen.drawn_m > reach_m && at.level > 0)) return;
+  const bool open = n.children.valid() && tree.group(n.children).reachable;
+  if (n.own.max > 0 && !n.pending && (!open || view.farDistance_m(at) >= kSampledFrom * reach_m)) sampled.push_back(n.brick);
+  if (!open) return;
+  for (std::uint32_t octant = 0; octant < 8; ++octant) findSampled(nodeOf(n.children, octant), view, seen);
+}
+
+void StreamState::Impl::writeOut(FrameEdits& edits, const FrameInput& input, bool idle) {
   auto& touched = changes.touched;
   std::sort(touched.begin(), touched.end());
   for (const NodeIndex node : touched) {
@@ -189,10 +205,17 @@ void StreamState::Impl::writeOut(FrameEdits& edits, bool snap, bool idle, std::u
     const NodeAddress at = tree.address(node);
     edits.light.push_back({tree.node(node).brick.value, at.corner, at.level});
   }
-  relight.lit(tree, changes.shown, steps, !snap);  // a cut lights all at its end: each once
+  relight.sun(input.toSun, steps);
+  relight.lit(tree, changes.shown, steps, !input.snap);  // a cut lights all at its end: each once
   relight.take(tree, steps, edits.light);
-  // As much again as half of what is lit anyway; with nothing else to do, as much as is generated otherwise.
-  relight.sweep(tree, steps, idle ? maxBricks : std::uint32_t(edits.light.size()) / 2, edits.light);
+  // As much again as half of what is lit anyway; with nothing else to do, as much as is generated otherwise, and half of that for a sun
+  // that moves.
+  std::uint32_t most = idle ? input.maxBricks : std::max(std::uint32_t(edits.light.size()) / 2, relight.sunMoved() ? input.maxBricks / 2 : 0);
+  sampled.clear();
+  if (!relight.exact() && tree.group(kRootGroup).reachable) findSampled(kRootNode, NodeView(root, lookFrom()), {});
+  if (relight.sunMoved()) most -= relight.follow(tree, sampled, steps, most, edits.light);
+  relight.sweep(tree, steps, most, edits.light);
+  edits.oldestSun = relight.oldestSun(sampled);
   changes.clear();
 }
 
@@ -205,7 +228,7 @@ ResidencyStats StreamState::Impl::stats(bool settled) const {
   s.emptyNodes = s.nodes - (s.bricks - 1);
   s.pendingBricks = tree.pendingBricks();
   for (std::uint32_t level = 0; level <= shared::kMaxDepth; ++level) s.bricksByLevel[level] = tree.bricksAtLevel(level);
-  s.cpuBytes = tree.bytes() + jobs.bytes() + selection.bytes();
+  s.cpuBytes = tree.bytes() + jobs.bytes() + selection.bytes() + relight.bytes();
   s.selectedDetail = selection.detail;
   s.settled = settled;
   return s;
@@ -237,7 +260,7 @@ FrameEdits StreamState::Impl::step(const FrameInput& input) {
     if (bandBase_m > bandTop_m) bandBase_m = bandTop_m = 0;
   }
   ++steps;
-  writeOut(edits, input.snap, idle, input.maxBricks);
+  writeOut(edits, input, idle);
   edits.sampleDetail = static_cast<float>(detail);
   edits.sampleNear_m = static_cast<float>(motion.view().near_m);
   edits.bandBase_m = bandBase_m;

@@ -113,6 +113,7 @@ Painted Painter::paint(const Order& order) {
   if (order.march) tried(renderer_->setMarch(*order.march));
   if (order.output) tried(renderer_->setOutput(*order.output));
   if (order.air) painted.airRefused = !renderer_->setAir(*order.air, Renderer::AirChange::Recompute);
+  renderer_->setTime(order.time_s);
   setDebugView(order.debug, painted);
   renderer_->setBricksPerFrame(order.bricksPerFrame);
   painted.stats = renderer_->frame(order.view, order.mode, order.sinceLast_s);

@@ -5,6 +5,7 @@
 #include "welkin/app/geographic.h"
 #include "welkin/app/sun_place.h"
 #include "welkin/physics/scene_io.h"
+#include "welkin/physics/scene_time.h"
 #include "welkin/physics/sun_position.h"
 #include "widgets.h"
 
@@ -16,39 +17,38 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 struct Subsolar {
   double latitude_deg, longitude_deg;
 };
-Subsolar subsolar(const Sun& sun) {
-  const glm::dvec3 d = sun.direction_planet;
+Subsolar subsolar(const glm::dvec3& d) {
   return {std::asin(std::clamp(d.z, -1.0, 1.0)) / kDegree, std::atan2(d.y, d.x) / kDegree};
 }
 
 void sunFields(Model& model) {
   Sun& sun = *model.scene.sun;
   const Sun& loaded = model.asLoaded.sun ? *model.asLoaded.sun : sun;
-  Subsolar at = subsolar(sun);
-  const Subsolar was = subsolar(loaded);
-  bool moved = false, let = false;
+  const glm::dvec3 toSun = sunAt(sun, model.time_s), wasTo = sunAt(loaded, model.time_s);
+  Subsolar at = subsolar(toSun);
+  const Subsolar was = subsolar(wasTo);
+  bool moved = false;
   const auto field = [&](const char* label, double& value, double before, const Range& range, const char* text) {
     const Edited e = number(label, value, before, range, text);
-    moved = moved || e.now, let = let || e.finished;
+    moved = moved || e.now;
   };
   field("sun over latitude", at.latitude_deg, was.latitude_deg, {-90, 90, "%.1f deg"}, "where the sun stands in the zenith");
   field("sun over longitude", at.longitude_deg, was.longitude_deg, {-180, 180, "%.1f deg"}, "15 degrees are an hour");
   const GeographicView here = app::toGeographic(model.camera.view(), model.scene.planet.radius_m);
-  app::SunInSky seen = app::sunInSky(sun.direction_planet, here.latitude_deg, here.longitude_deg);
-  const app::SunInSky before = app::sunInSky(loaded.direction_planet, here.latitude_deg, here.longitude_deg);
+  app::SunInSky seen = app::sunInSky(toSun, here.latitude_deg, here.longitude_deg);
+  const app::SunInSky before = app::sunInSky(wasTo, here.latitude_deg, here.longitude_deg);
   const bool sky =
       number("sun elevation here", seen.elevation_deg, before.elevation_deg, {-90, 90, "%.1f deg"}, "over the horizon below the camera")
           .now |
       number("sun azimuth here", seen.azimuth_deg, before.azimuth_deg, {0, 360, "%.1f deg"}, "clockwise from north").now;
-  let = let || finishedEditIs("sun elevation here") || finishedEditIs("sun azimuth here");
   if (press("Sun as now", "where the sun stands over the Earth at this moment")) {
     const double days = double(std::time(nullptr)) / 86400 - 10957.5;  // from 1970-01-01 00:00 to 2000-01-01 12:00 UTC
     const SubsolarPoint now = subsolarPoint(days);
-    at = {now.latitude_deg, now.longitude_deg}, moved = let = true;
+    at = {now.latitude_deg, now.longitude_deg}, moved = true;
   }
-  if (sky) sun.direction_planet = app::sunDirection(seen, here.latitude_deg, here.longitude_deg);
-  if (moved) sun.direction_planet = directionTo(at.latitude_deg, at.longitude_deg);
-  if (let) model.wanted.air = true;  // light of clouds that is there needs a new start: the viewer sees to it
+  if (sky) sun.direction_planet = sunStartOf(sun, app::sunDirection(seen, here.latitude_deg, here.longitude_deg), model.time_s);
+  if (moved) sun.direction_planet = sunStartOf(sun, directionTo(at.latitude_deg, at.longitude_deg), model.time_s);
+  if (sky || moved) model.wanted.air = true;
   double factor = sun.irradiance[1];
   const Edited bright = number("irradiance", factor, loaded.irradiance[1], {0.01, 100, "%.3g", true},
                                "of the sun at 550 nm, at the planet; the others follow");

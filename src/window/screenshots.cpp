@@ -54,6 +54,7 @@ void Screenshots::takeConverged(const Scene& scene, const View& view, app::Size 
     RenderSettings settings;
     settings.width = size.width, settings.height = size.height;
     settings.onlyView = view;
+    settings.time_s = time_s;
     auto stage = app::openStage(scene, settings, gpu_);
     if (!stage) return stage.error();
     const auto stats = app::drawConverged(*stage->renderer, view, [this](double) { return !stop_; });

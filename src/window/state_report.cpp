@@ -48,6 +48,8 @@ std::string stateJson(const Model& m, const Counts& c, const std::vector<FlightS
                    {"altitude_m", m.camera.altitude_m()},
                    {"speed_factor", m.camera.speedFactor},
                    {"time_s", m.time_s},
+                   {"playing", m.playing},
+                   {"light_stale_deg", m.stats.lightStale_deg},
                    {"window", {m.window.width, m.window.height}},
                    {"picture", {m.picture.width, m.picture.height}},
                    {"scale", m.scale.scale()},

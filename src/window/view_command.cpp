@@ -54,6 +54,7 @@ void addView(CLI::App& app, app::Action& action) {
   command->add_option("SCENE", o->input, "a scene or a path (JSON), or a picture (PNG, EXR) of this program; default: scenes/earth.json");
   command->add_option("--view", o->viewName, "which view of the scene");
   app::addQualityOptions(*command, o->common);
+  app::addTimeOption(*command, o->common);
   command->add_flag("--quiet,-q", o->common.quiet, "no log lines, only warnings and errors");
   command->add_option("--shots", o->shots, "folder of pictures taken; default: the working folder");
   command->add_option("--state", o->state, "for tests: what the window shows, as JSON, every half second and at the end")->group("");

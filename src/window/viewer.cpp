@@ -50,6 +50,7 @@ class Viewer {
     if (!options.state.empty()) flights_.rememberShown();
     model_.device = context.device().renderer;
     model_.software = context.device().software;
+    restored.start.time_s = options.common.time_s.value_or(restored.start.time_s);
     begin(std::move(restored.start));
     if (restored.path) loadFlight(model_, std::move(*restored.path));
     model_.settings = std::move(settings);
@@ -89,7 +90,7 @@ class Viewer {
       if (!interface_.wantsKeys()) Controls::press(model_, window_, press);
     if (!flights_.running()) controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
     if (interface_.busy() || !events.pressed.empty()) flights_.moveOn();
-    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.deck.mode() != Deck::Mode::Idle ||
+    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.deck.mode() != Deck::Mode::Idle || model_.playing ||
         !sameView(model_.view(), last_))
       moved_ms_ = now_ms;
     last_ = model_.view();
@@ -158,7 +159,7 @@ class Viewer {
     for (const auto& [name, ms] : parts_ms)
       if (name != "picture") passes[name].wall_ms = ms;  // its passes are told one by one
     model_.times.add(frame_ms, passes);
-    pace_.made(model_.stats.bricksGenerated, passes["bricks"].wall_ms + passes["light"].wall_ms);
+    pace_.made(std::max(model_.stats.bricksGenerated, model_.stats.bricksLit), passes["bricks"].wall_ms + passes["light"].wall_ms);
   }
 
   // What is asked for is done, or begun.
@@ -214,6 +215,7 @@ class Viewer {
     s.width = std::max(size.width, 16), s.height = std::max(size.height, 16);
     s.bricksPerFrame = pace_.perFrame();
     s.waitForEdits = false;
+    s.time_s = model_.time_s;
     s.linear = false;
     s.spareDetail = kSpareDetail;
     return s;

@@ -31,6 +31,7 @@ layout(binding = WK_CLOUD_AUX_UNIT) uniform sampler2D u_cloudAux;
 #endif
 #if OPT_ALBEDO_MAP
 layout(binding = WK_ALBEDO_UNIT) uniform sampler2D u_albedoMap;
+uniform float u_groundTurn;  // of the ground under clouds that drift, in turns
 #endif
 uniform ivec2 u_size;
 uniform vec3 u_albedo, u_sunDir, u_sunIrradiance;
@@ -40,7 +41,7 @@ vec3 groundLight(Ray ray, float visibility) {
   vec3 normal = groundNormal(camera, ray);
   vec3 albedo = u_albedo;
 #if OPT_ALBEDO_MAP
-  albedo = groundAlbedoFrom(u_albedoMap, normal, float(camera.forward.w), ray.ground_m * u_pixel_rad);
+  albedo = groundAlbedoFrom(u_albedoMap, u_groundTurn, normal, float(camera.forward.w), ray.ground_m * u_pixel_rad);
 #endif
   vec3 sun = u_sunIrradiance * visibility, sky = vec3(0.0);
 #if OPT_AIR && OPT_SUN

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
 #include <string>
 
 #include "welkin/render/exposure/exposure_pass.h"
@@ -47,7 +48,8 @@ Result<gpu::Program> composite(const CompositeParts& parts, bool albedoMap, Tone
 
 }  // namespace
 
-void CompositePass::use(const Scene& scene) {
+void CompositePass::use(const Scene& scene, double wind_rad) {
+  groundTurn_ = static_cast<float>(wind_rad / (2 * std::numbers::pi));
   const auto vec = [](const Spectrum3& s) { return glm::vec3(s[0], s[1], s[2]); };
   albedo_ = vec(scene.planet.albedo);
   if (!scene.sun) return;
@@ -161,7 +163,7 @@ void CompositePass::swap(CompositePass& o) noexcept {
   display_.swap(o.display_);
   std::swap(width_, o.width_), std::swap(height_, o.height_);
   std::swap(albedo_, o.albedo_), std::swap(toSun_, o.toSun_), std::swap(sunIrradiance_, o.sunIrradiance_);
-  std::swap(sunRadius_rad_, o.sunRadius_rad_), std::swap(parts_, o.parts_), std::swap(toneCurve_, o.toneCurve_);
+  std::swap(sunRadius_rad_, o.sunRadius_rad_), std::swap(groundTurn_, o.groundTurn_), std::swap(parts_, o.parts_), std::swap(toneCurve_, o.toneCurve_);
   std::swap(albedoMap_, o.albedoMap_), std::swap(albedoBytes_, o.albedoBytes_), std::swap(account_, o.account_);
 }
 
@@ -182,6 +184,7 @@ void CompositePass::dispatch(const gpu::Program& program, const shared::CameraBl
   program.set("u_sunRadius_rad", sunRadius_rad_);
   program.set("u_pixel_rad", static_cast<float>(pixel_rad));
   program.set("u_exposure", exposureScale(exposure_ev));
+  if (albedoMap_) program.set("u_groundTurn", groundTurn_);
   program.dispatch(static_cast<unsigned>(width_ + 7) / 8, static_cast<unsigned>(height_ + 7) / 8);
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
 }

@@ -23,7 +23,7 @@ class FakeGpu {
       : source_(source), root_(root), settings_(settings), words_(settings.groupCapacity * 8, {0xFFFFFFFFu, 0}) {}
 
   // Executes edits in their order. Results are due `delay` frames later. An error message, or empty.
-  std::string apply(const FrameEdits& edits, std::uint64_t frame, std::uint64_t delay, std::uint32_t maxBricks) {
+  std::string apply(const FrameEdits& edits, std::uint64_t frame, std::uint64_t delay, std::uint32_t maxBricks, glm::dvec3 toSun = {}) {
     if (edits.generate.size() > maxBricks) return "more bricks to generate than asked for";
     for (const NodeWrite& w : edits.nodes) {
       if (w.node >= words_.size()) return "a node write beyond the buffer";
@@ -36,7 +36,7 @@ class FakeGpu {
         return "light for a brick that holds something else";
       if (!lit.insert(job.brick).second) return "a brick lit twice in a frame";
     }
-    for (const std::uint32_t brick : lit) litAt_[brick] = frame;
+    for (const std::uint32_t brick : lit) litAt_[brick] = frame, litFor_[brick] = toSun;
     if (std::string wrong = descend(lit, edits.dirty, frame); !wrong.empty()) return wrong;
     for (const BrickJob& job : edits.generate) {
       if (job.brick == 0 || job.brick >= settings_.brickCapacity) return "a job for a brick that is none";
@@ -105,6 +105,13 @@ class FakeGpu {
   }
   bool allLitSinceTheLastCame() const {
     return std::all_of(shown_.begin(), shown_.end(), [this](const auto& s) { return litAt_.at(s.first) >= lastCame_; });
+  }
+  // How far, as a chord, the sun is from where it stood when a brick was lit; of all that rays can reach, the greatest.
+  double light_rad(std::uint32_t brick, glm::dvec3 toSun) const { return glm::length(litFor_.at(brick) - toSun); }
+  double oldestLight_rad(glm::dvec3 toSun) const {
+    double most = 0;
+    for (const auto& [brick, job] : shown_) most = std::max(most, light_rad(brick, toSun));
+    return most;
   }
   std::size_t reachableGroups() const { return reachableGroups_; }
 
@@ -201,6 +208,7 @@ class FakeGpu {
   std::map<std::array<std::uint32_t, 4>, bool> empty_, emptyNow_;  // by address
   std::deque<std::pair<std::uint64_t, BrickResult>> due_;
   std::map<std::uint32_t, std::uint64_t> litAt_, cameAt_;  // frames, by brick
+  std::map<std::uint32_t, glm::dvec3> litFor_;
   std::uint64_t lastCame_ = 0;
   std::size_t reachableGroups_ = 0;
 };

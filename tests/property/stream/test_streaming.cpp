@@ -9,7 +9,7 @@ namespace welkin::test {
 namespace {
 
 constexpr double kRadius_m = 6'371'000;
-const glm::dvec3 kToSun(0.6, -0.3, 0.7);
+const glm::dvec3 kToSun = glm::normalize(glm::dvec3(0.6, -0.3, 0.7));
 const glm::ivec3 kToSunSigns(1, -1, 1);
 
 struct World {
@@ -21,10 +21,11 @@ struct World {
   std::mt19937 random;
   std::uint64_t frame = 0;
   FrameEdits last;
+  glm::dvec3 toSun = kToSun;
 
   World(std::uint32_t seed, std::uint32_t depth, std::uint32_t bricks, std::uint32_t groups, double limit = 0)
       : source(root, 1000, 9000, 9, seed),
-        settings{depth, bricks, groups, limit, {}, kToSun},
+        settings{depth, bricks, groups, limit, {}},
         state(source, root, settings),
         gpu(source, root, settings),
         random(seed) {}
@@ -37,10 +38,11 @@ struct World {
     input.camera = camera;
     input.maxBricks = maxBricks;
     input.snap = snap;
+    input.toSun = toSun;
     input.results = gpu.lose(random, lost, gpu.results(frame));
     last = state.step(input);
     ASSERT_EQ(state.validate(), "") << "frame " << frame;
-    ASSERT_EQ(gpu.apply(last, frame, delay, maxBricks), "") << "frame " << frame;
+    ASSERT_EQ(gpu.apply(last, frame, delay, maxBricks, toSun), "") << "frame " << frame;
     ASSERT_LE(last.stats.bricks, settings.brickCapacity);
     ASSERT_LE(last.stats.groups, settings.groupCapacity);
     ASSERT_GT(last.sampleDetail, 0);
@@ -58,6 +60,26 @@ struct World {
   // Points that a visible ray samples: is the level that the detail asks for there? Counts those that are not.
   int missing(const SelectionCamera& camera, int rays) {
     int bad = 0;
+    sample(camera, rays, [&](glm::uvec3 p, std::uint32_t level) {
+      const NodeAddress got = gpu.descendTo(p, level);
+      if (got.level < level && !source.bounds(got.corner, got.level).empty()) ++bad;
+    });
+    return bad;
+  }
+
+  // The oldest light that visible rays sample.
+  double oldestSampled_rad(const SelectionCamera& camera, int rays) {
+    double most = 0;
+    sample(camera, rays, [&](glm::uvec3 p, std::uint32_t level) {
+      std::uint32_t brick = 0;
+      gpu.descendTo(p, level, &brick);
+      if (brick != 0) most = std::max(most, gpu.light_rad(brick, toSun));
+    });
+    return most;
+  }
+
+  template <class Look>
+  void sample(const SelectionCamera& camera, int rays, const Look& look) {
     for (int i = 0; i < rays; ++i) {
       const double x = uniform(-1, 1) * camera.tanHalfFovX, y = uniform(-1, 1) * camera.tanHalfFovY;
       const glm::dvec3 direction = glm::normalize(camera.forward + camera.right * x + camera.up * y);
@@ -69,11 +91,9 @@ struct World {
         const double far = std::max(t, static_cast<double>(last.sampleNear_m));
         std::uint32_t level = settings.depth;
         while (level > 0 && far > last.sampleDetail * root.nodeSize_m(level)) --level;
-        const NodeAddress got = gpu.descendTo(root.toFixed(at), level);
-        if (got.level < level && !source.bounds(got.corner, got.level).empty()) ++bad;
+        look(root.toFixed(at), level);
       }
     }
-    return bad;
   }
 };
 
@@ -190,6 +210,69 @@ TEST_P(Flight, LightFollowsWhatComesTowardsTheSun) {
   EXPECT_GT(lag, 0u);  // else nothing came out of order, and this tests nothing
   EXPECT_TRUE(w.gpu.allLitSinceTheLastCame());
   EXPECT_LT(lit, 5 * generated);  // first, for neighbours, at leisure while it refines, and once in the end
+}
+
+glm::dvec3 sunAfter(double angle_rad) {
+  return {kToSun.x * std::cos(angle_rad) - kToSun.y * std::sin(angle_rad), kToSun.x * std::sin(angle_rad) + kToSun.y * std::cos(angle_rad), kToSun.z};
+}
+// Of small angles the chord is the angle: 1e-5 of it at 0.03 rad.
+double apart_rad(glm::dvec3 a, glm::dvec3 b) { return glm::length(a - b); }
+
+// A sun that moves: the oldest light that rays sample is no older than is told, nor than it takes to light those bricks in turn; and
+// all of it is exact once the sun rests.
+TEST_P(Flight, LightFollowsTheSun) {
+  constexpr double kStep_rad = 2e-4, kDisc_rad = 0.00465;
+  constexpr std::uint32_t kLit = 100;  // bricks a frame
+  World w(GetParam(), 13, 3000, 3000);
+  const SelectionCamera camera = cameraAt(0.3, 0.1, 6000, 0, -0.3);
+  w.settle(camera);
+  if (HasFatalFailure()) return;
+  const double round = std::ceil(double(w.last.stats.bricks) / kLit) + 2;
+  double told_rad = 0, sampled_rad = 0;
+  std::size_t lit = 0;
+  for (int i = 1; i <= 300; ++i) {
+    w.toSun = sunAfter(i * kStep_rad);
+    w.step(camera, kLit);
+    if (HasFatalFailure()) return;
+    const double is_rad = w.oldestSampled_rad(camera, 5), told = apart_rad(w.last.oldestSun, w.toSun);
+    ASSERT_LE(is_rad, told + 1e-6) << "frame " << i;  // bricks keep it in floats
+    told_rad = std::max(told_rad, told), sampled_rad = std::max(sampled_rad, is_rad);
+    lit += w.last.light.size();
+  }
+  // Moved by its disc, then all bricks in turn at the worst; those lit first in one round may be last in the next.
+  EXPECT_LT(told_rad, kDisc_rad + 2 * round * kStep_rad);
+  EXPECT_GT(sampled_rad, kDisc_rad / 2);  // else this tests nothing
+  EXPECT_LT(told_rad, 2 * sampled_rad);   // and is not told of what nobody sees: a few rays find about the oldest
+  EXPECT_LE(lit, 300 * kLit);
+  for (int i = 0; i < 2 * round && !w.last.stats.settled; ++i) w.step(camera, kLit);
+  ASSERT_TRUE(w.last.stats.settled);
+  EXPECT_EQ(w.gpu.oldestLight_rad(w.toSun), 0);
+  EXPECT_EQ(w.last.oldestSun, w.toSun);
+  w.step(camera, kLit);
+  EXPECT_TRUE(empty(w.last)) << "it rests";
+}
+
+// Slow enough, its light is left alone until it has moved by its own disc.
+TEST_P(Flight, ASlowSunIsLitForSeldom) {
+  World w(GetParam(), 12, 2000, 2000);
+  const SelectionCamera camera = cameraAt(0.3, 0.1, 6000, 0, -0.3);
+  w.settle(camera);
+  if (HasFatalFailure()) return;
+  constexpr double kStep_rad = 2.5e-5;  // 186 steps a disc
+  for (int i = 1; i <= 180; ++i) {
+    w.toSun = sunAfter(i * kStep_rad / glm::length(glm::dvec2(kToSun)));
+    w.step(camera, 200);
+    if (HasFatalFailure()) return;
+    ASSERT_TRUE(w.last.light.empty()) << "frame " << i;
+  }
+  std::size_t lit = 0;
+  for (int i = 181; i <= 250; ++i) {
+    w.toSun = sunAfter(i * kStep_rad / glm::length(glm::dvec2(kToSun)));
+    w.step(camera, 200);
+    if (HasFatalFailure()) return;
+    lit += w.last.light.size();
+  }
+  EXPECT_EQ(lit, w.last.stats.bricks - 1);  // each once; the zero brick has none
 }
 
 TEST_P(Flight, AStaticSceneIsSilentAndATremblingCameraNearlySo) {

@@ -18,8 +18,8 @@ inline const std::string kFullScene = R"({
      "phase": {"type": "cornette-shanks", "g": 0.8}},
     {"name": "ozone", "profile": {"type": "tent", "peak_m": 25000, "half_width_m": 15000}, "absorption_per_m": [6.5e-7, 1.88e-6, 8.5e-8],
      "phase": {"type": "isotropic"}}]},
-  "sun": {"irradiance": [1.5, 1.8, 1.9], "angular_radius_rad": 0.0047, "direction": [0.6, 0.0, 0.8]},
-  "clouds": {"combine": "add", "sources": [
+  "sun": {"irradiance": [1.5, 1.8, 1.9], "angular_radius_rad": 0.0047, "direction": [0.6, 0.0, 0.8], "day_s": 88775.244},
+  "clouds": {"combine": "add", "wind_east_m_per_s": -12.5, "sources": [
     {"type": "cover-map", "file": "../data/clouds.png", "layers": [{"name": "cumulus", "base_m": 900, "top_m": 2500, "base_fade_m": 90,
       "top_fade_m": 500, "extinction_per_m": 0.05, "cover_gain": 1.5, "cover_bias": -0.1, "type_low": 0.2, "type_high": 0.6, "cell_m": 6000,
       "octaves": 7, "gain": 0.55, "billow": 0.8, "softness": 0.25, "taper": 0.4, "top_follows_cover": 0.5, "streak": 2, "warp_m": 4000}]},

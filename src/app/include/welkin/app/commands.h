@@ -21,6 +21,7 @@ void addStress(CLI::App& app, Action& action);
 
 // --size --budget --depth --step --detail --seed --gpu, then --quiet --json.
 void addQualityOptions(CLI::App& command, CommonOptions& options);
+void addTimeOption(CLI::App& command, CommonOptions& options);
 void addToleranceOption(CLI::App& command, CommonOptions& options);  // render, fly
 void addOutputOptions(CLI::App& command, CommonOptions& options, const char* jsonText);
 void addGpuOption(CLI::App& command, CommonOptions& options);

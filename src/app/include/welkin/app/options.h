@@ -56,6 +56,7 @@ struct CommonOptions {
   std::optional<std::uint32_t> seed;
   std::optional<Exposure> exposure;  // in place of the scene's and of every view's
   std::optional<ToneCurve> toneCurve;
+  std::optional<double> time_s;  // of the scene
   std::string gpu = "auto";
   bool quiet = false;
   std::filesystem::path json;
@@ -73,6 +74,7 @@ struct Start {
   std::optional<double> exposure_ev;  // of a picture
   std::vector<std::string> notes;     // of a picture: what it did not say; logged already
 };
+void apply(const CommonOptions& options, Start& start);  // but for the size
 // `viewName` empty: the only view, or "default", or the first one by name; a picture's own. The error names the views that are there.
 Result<Start> loadStart(const std::filesystem::path& file, const std::string& viewName);
 

@@ -22,9 +22,18 @@ struct Planet {
   std::filesystem::path albedoMap;  // optional picture, equirectangular; empty = plain albedo
 };
 
-struct ExponentialProfile { double scaleHeight_m; };
-struct TentProfile { double peak_m, halfWidth_m; };
-struct UniformProfile { double base_m, top_m; };
+struct ExponentialProfile {
+  double scaleHeight_m;
+  bool operator==(const ExponentialProfile&) const = default;
+};
+struct TentProfile {
+  double peak_m, halfWidth_m;
+  bool operator==(const TentProfile&) const = default;
+};
+struct UniformProfile {
+  double base_m, top_m;
+  bool operator==(const UniformProfile&) const = default;
+};
 enum class PhaseType { Rayleigh, CornetteShanks, HenyeyGreenstein, Isotropic };
 struct AirLayer {
   std::string name;
@@ -32,17 +41,20 @@ struct AirLayer {
   Spectrum3 scattering_per_m{}, absorption_per_m{};
   PhaseType phase = PhaseType::Rayleigh;
   double g = 0;
+  bool operator==(const AirLayer&) const = default;
 };
 struct Atmosphere {
   double top_m = 100'000;  // height of the shell above the ground
   std::string model = "auto";
   std::vector<AirLayer> layers;
+  bool operator==(const Atmosphere&) const = default;
 };
 
 struct Sun {
   Spectrum3 irradiance{1.0, 1.0, 1.0};  // at the planet, of a plane facing the sun: W/m2/nm, or relative (docs/exposure.md)
   double angularRadius_rad = 0.004675;
-  glm::dvec3 direction_planet{1, 0, 0};  // unit, towards the sun, planet frame
+  glm::dvec3 direction_planet{1, 0, 0};  // unit, towards the sun, planet frame, at the scene's time 0
+  double day_s = 0;                      // from noon to noon; below 0: it rises in the west; 0: it stands still
 };
 
 // One procedural cloud layer: cover says where, the layer says how high, how thick and how it looks.
@@ -74,6 +86,7 @@ using CloudSource = std::variant<LayersSource, SphereSource, SlabSource>;
 struct Clouds {
   std::vector<CloudSource> sources;
   bool combineMax = true;  // max or add
+  double windEast_m_per_s = 0;  // mean wind: all clouds turn about the axis as one; at the equator, at the ground
 };
 
 struct View {

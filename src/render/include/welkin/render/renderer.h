@@ -37,6 +37,7 @@ struct RenderSettings {
   bool waitForEdits = true;             // true: edits of frame k apply at frame k + 2, whatever it takes (deterministic); false: when ready
   std::optional<View> onlyView = {};    // one picture, of this view: frames march every pixel, and of other views would lack parts
   bool linear = true;                   // radiance() will be read; else it may be empty
+  double time_s = 0;                    // of the scene: where the sun and the clouds are (Renderer::setTime)
   std::set<std::string> forced = {};    // reasons to leave something out that are not to hold (LeftOut::name)
 };
 
@@ -60,6 +61,7 @@ struct FrameStats {
   double sampleDetail = 0;
   double exposure_ev = 0;  // at which the picture is shown: of the view, of the scene, or metered
   std::string leftOut;     // why all but the background was left out of this frame, or all of it (LeftOut::name); empty: it was drawn
+  double lightStale_deg = 0;  // between the sun and where it stood when the oldest light in the tree was asked for
   double skyProgress = 1;  // of the light of a changed air (Renderer::setAir), 0..1; 1: it is shown
 };
 
@@ -84,9 +86,13 @@ class Renderer {
   FrameStats frame(const View& view, FrameMode mode = FrameMode::Reprojected, double sinceLast_s = std::numeric_limits<double>::infinity());
   // Streams (draws nothing) until nothing is pending for this view, then returns. `progress` gets 0..1 and may return false to stop.
   FrameStats settle(const View& view, const std::function<bool(double)>& progress = {});
-  // Planet's albedo, atmosphere and sun from now on. Recompute: the old light is drawn until the new one is there; each frame works on it for
-  // sky_ms. Keep: at once, and what is scattered more than once stays that of the old air. Fails in one line and changes nothing: values
-  // out of range, memory, air where there was none or none where there was some, or (Keep) light that does not fit.
+  // The scene's time from the next picture on: the sun goes with the planet's day, clouds with their mean wind (physics/scene_time.h).
+  // Light of clouds follows brick by brick, a frame's worth each; FrameStats::lightStale_deg says how far.
+  void setTime(double time_s);
+  // Planet's albedo, atmosphere, sun and mean wind from now on. Where the sun stands changes at once, as with setTime(). For the rest, Recompute: the old
+  // light is drawn until the new one is there; each frame works on it for sky_ms. Keep: at once, and what is scattered more than once stays
+  // that of the old air. Fails in one line and changes nothing: values out of range, memory, air where there was none or none where there
+  // was some, or (Keep) light that does not fit.
   enum class AirChange { Recompute, Keep };
   Result<void> setAir(const Scene& changed, AirChange how);
   // Integrator, step rule, step, skipEmpty and detail (here: sampled at most) from the next picture on; the tree stays as it is. Fails, and
@@ -107,7 +113,10 @@ class Renderer {
   FrameCounters preview(const View& view);
   // The same for some pixels only (x, y from the top left), every one marched; the others show what was there before.
   Result<FrameCounters> preview(const View& view, std::span<const glm::ivec2> pixels);
-  // For the reference (docs/reference.md): the view's rays, the tree as preview(view) would see it (clouds only), and preview() with what
+  // All is drawn in the frame in which the clouds rest: the planet's, turned by their mean wind until now. A view, and where the sun stands, there.
+  View inClouds(const View& view) const;
+  glm::dvec3 sunInClouds() const;
+  // For the reference (docs/reference.md), in that frame: the view's rays, the tree as preview(view) would see it (clouds only), and preview() with what
   // each pixel's ray through the clouds brings given, width * height from the top row, instead of marched.
   shared::CameraBlock camera(const View& view) const;
   TreeData tree(const View& view);

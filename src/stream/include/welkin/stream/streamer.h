@@ -29,7 +29,6 @@ struct StreamSettings {
   std::uint32_t groupCapacity = 0;   // groups of eight nodes in the node pool, the root's group included
   double detailLimit = 0;            // greatest node-edges-per-distance K; 0: no limit but the budget
   std::optional<OpaqueDeck> deck = {};  // what is below it is not refined while the camera is above
-  glm::dvec3 toSun{0};                  // planet frame: bricks are lit again when neighbours come on this side; 0: never
 };
 
 // What the GPU found when it generated a brick: extinction as a fraction of the source's maximum, over the stored corners.
@@ -70,6 +69,7 @@ struct FrameInput {
   std::vector<BrickResult> results;      // of jobs handed out by earlier edits, in the order they were handed out
   double detailLimit = 0;                // like StreamSettings', and under it, from now on; 0: that one alone
   bool snap = false;                     // a cut: let the sampled detail follow at once instead of gliding
+  glm::dvec3 toSun{0};                   // unit, the tree's frame: light goes with it (src/stream/relight.h); 0: there is none
 };
 
 // To be executed in this order: store `nodes`, rebuild maps under `dirty`, light `light`, draw; `generate` before or after.
@@ -79,6 +79,7 @@ struct FrameEdits {
   std::vector<NodeWrite> nodes;
   std::vector<DirtyNode> dirty;
   std::vector<BrickJob> light;           // bricks that the node writes of this frame made visible, or some frames ago: once more
+  glm::dvec3 oldestSun{0};               // where the sun stood when the oldest light in the tree was asked for; 0: there is none
   float sampleDetail = 1;                // K: a ray samples level L up to K * nodeSize(L) away; resident by construction
   float sampleNear_m = 0;                // nearer than this a ray samples as if it were this far: a fast camera cannot refine its feet
   float bandBase_m = 0, bandTop_m = 0;   // altitudes that resident, non-zero data fills

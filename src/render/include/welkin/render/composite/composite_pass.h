@@ -52,7 +52,9 @@ class CompositePass {
 
   Result<void> resize(int width, int height);  // new, empty pictures
   Result<void> useOutput(const CompositeParts& parts, ToneCurve curve);  // clouds, air, sun and ground as before
-  void use(const Scene& scene);  // plain albedo and sun of this scene from now on; what it has and has not stays as it was at the start
+  // Plain albedo and sun of this scene from now on; what it has and has not stays as it was at the start. wind_rad: how far the picture is
+  // turned eastwards against the ground.
+  void use(const Scene& scene, double wind_rad = 0);
 
   // Reads the camera (WK_CAMERA_BINDING, the same block as here), the sky tables (SkyTables::bind) and the cloud layer's two textures;
   // counts into WK_COUNTERS_BINDING. Exposure in EV: 0 suits a sun of irradiance 1; of a scene with a metered exposure it is not used,
@@ -81,7 +83,7 @@ class CompositePass {
   gpu::Texture radiance_, display_;
   int width_ = 0, height_ = 0;
   glm::vec3 albedo_{}, toSun_{}, sunIrradiance_{};
-  float sunRadius_rad_ = 0;
+  float sunRadius_rad_ = 0, groundTurn_ = 0;
   std::optional<CompositeParts> parts_;
   ToneCurve toneCurve_{};
   GLuint albedoMap_ = 0;  // with smaller copies, which gpu::Texture has not
