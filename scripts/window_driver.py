@@ -64,11 +64,11 @@ def write_png(path, pixels):
 
 class Window:
     def __init__(self, build, screen, out, *arguments, size="1280x800", wait=True, config=None):
-        self.build, self.screen, self.shots = build, screen, os.path.join(out, "shots")
+        self.build, self.screen = build, screen
+        self.shots = tempfile.mkdtemp(prefix="shots-", dir=out)  # of no other window
         self.state_file = os.path.join(out, "state.json")
         if os.path.exists(self.state_file):
             os.remove(self.state_file)
-        os.makedirs(self.shots, exist_ok=True)
         self.environment = dict(os.environ, DISPLAY=screen.display, XDG_CONFIG_HOME=config or os.path.join(out, "config"))
         self.log = open(os.path.join(out, "log.txt"), "w", encoding="utf-8")
         command = [os.path.join(build, "welkin"), "view", *arguments, *(["--size", size] if size else []), "--state", self.state_file,
