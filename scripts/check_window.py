@@ -18,6 +18,7 @@ import time
 
 import checks
 from check_window_recording import recording
+from check_window_time import day
 from window_driver import PANELS, PATIENCE_S, Screen, Window, missing, write_png
 
 SMALL = ["--budget", "128MiB", "--depth", "11"]  # a tree that a slow machine has soon
@@ -451,7 +452,7 @@ def places(c):
 def converged(c):
     if c.quick:
         return
-    w = c.window(*SMALL, size="320x180")
+    w = c.window(*SMALL, "--time", "5400", size="320x180")
     w.key("shift+F12")
     said = w.wait_for(lambda s: "converged" in s["message"] and s["message"].startswith("wrote"), 300)
     c.line("Shift F12 writes a converged picture", said is not None, "PNG and EXR",
@@ -505,7 +506,7 @@ def monkey(c):
     c.end(w, "monkey")
 
 
-GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, drops, resizes, closes, refuses, recording, places, converged, monkey)}
+GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, day, drops, resizes, closes, refuses, recording, places, converged, monkey)}
 
 
 def main():

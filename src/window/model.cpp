@@ -74,13 +74,19 @@ void Model::redo() {
 }
 
 void Model::show(const Scene& other) {
-  const auto text = [](Scene s, bool live) {  // with or without what changes live
-    if (live) s.quality = {}, s.output = {};
+  const auto text = [](Scene s, bool air) {  // without what changes live; with or without what Renderer::setAir changes
+    s.quality = {}, s.output = {};
+    if (!air) {
+      s.planet.albedo = {};
+      if (s.atmosphere) s.atmosphere = Atmosphere{};
+      if (s.sun) s.sun = Sun{};
+      if (s.clouds) s.clouds->windEast_m_per_s = 0;
+    }
     return sceneToJson(s);
   };
-  Scene now = scene;
-  const bool rebuild = text(other, true) != text(now, true) || other.quality.budget_bytes != now.quality.budget_bytes ||
-                       other.quality.depth != now.quality.depth || other.quality.seed != now.quality.seed;
+  const bool rebuild = text(other, false) != text(scene, false) || other.quality.budget_bytes != scene.quality.budget_bytes ||
+                       other.quality.depth != scene.quality.depth || other.quality.seed != scene.quality.seed;
+  if (!rebuild && text(other, true) != text(scene, true)) wanted.air = true;
   scene = other;
   exposure_ev = scene.output.exposure_ev;
   wanted.rebuild |= rebuild;

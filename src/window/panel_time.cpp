@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "panels.h"
 #include "widgets.h"
 
@@ -8,7 +11,8 @@ void timePanel(Model& model) {
   ImGui::SameLine();
   if (press("To 0 s", "the scene's time back to its beginning")) model.time_s = 0;
   number("speed", model.timeSpeed, 1, {0.01, 10'000, "x %.5g", true}, "of the scene's time");
-  number("time", model.time_s, 0, {0, 86'400, "%.2f s"}, "of the scene: the sun goes with the day, clouds with the wind; it is stored with pictures");
+  const double day_s = model.scene.sun ? std::abs(model.scene.sun->day_s) : 0;
+  number("time", model.time_s, 0, {0, std::max(day_s, 86'400.0), "%.2f s"}, "of the scene: the sun goes with the day, clouds with the wind; it is stored with pictures");
   Scene& scene = model.scene;
   if (scene.sun) {
     const Sun& loaded = model.asLoaded.sun ? *model.asLoaded.sun : *scene.sun;

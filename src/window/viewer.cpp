@@ -28,6 +28,7 @@ constexpr double kIdleWait_s = 0.03, kMeasuringWait_s = 0.1, kLate_s = 0.1, kSta
 constexpr double kMostWait_ms = 28;        // for a picture; one that takes longer is shown in a later frame, and the interface goes on
 constexpr double kLoadingWait_ms = 5;      // while a renderer is made the processor has much to do
 constexpr std::uint64_t kFirstFrames = 8;  // not among the slowest: the interface's shaders are compiled for them
+constexpr double kSlowTime = 2;            // times as fast as it is: slower than a frame shows
 constexpr double kSpareDetail = 1.4;       // for the next step of a flight
 
 bool sameView(const View& a, const View& b) {
@@ -90,7 +91,8 @@ class Viewer {
       if (!interface_.wantsKeys()) Controls::press(model_, window_, press);
     if (!flights_.running()) controls_.fly(model_, window_, events, !interface_.wantsMouse(), !interface_.wantsKeys(), dt_s);
     if (interface_.busy() || !events.pressed.empty()) flights_.moveOn();
-    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.deck.mode() != Deck::Mode::Idle || model_.playing ||
+    if (model_.camera.moves() || interface_.busy() || !events.pressed.empty() || model_.deck.mode() != Deck::Mode::Idle ||
+        (model_.playing && model_.timeSpeed > kSlowTime) ||
         !sameView(model_.view(), last_))
       moved_ms_ = now_ms;
     last_ = model_.view();

@@ -22,7 +22,6 @@ void remember(const char* label) {
 std::string takeFinishedEdit() { return std::exchange(g_finished, {}); }
 const std::map<std::string, std::array<float, 4>>& fieldPlaces() { return g_places; }
 void markEdit(const char* label) { g_finished = label; }
-bool finishedEditIs(const std::string& label) { return g_finished == label; }
 void beginFields() { g_places.clear(); }
 
 void explain(const char* text) {

@@ -27,7 +27,6 @@ bool radio(const char* label, bool on, const char* explanation);  // true: it wa
 bool press(const char* label, const char* explanation);            // a button
 std::string takeFinishedEdit();                                    // label of the field that was let go since the last call; empty: none
 void markEdit(const char* label);                                  // by a button
-bool finishedEditIs(const std::string& label);                     // the same, and it stays
 const std::map<std::string, std::array<float, 4>>& fieldPlaces();  // of fields in the last frame: x0, y0, x1, y1; for tests
 void remember(const char* label);                                  // place of the item before
 void beginFields();                                                // of a frame

@@ -131,6 +131,27 @@ TEST_F(SceneTimeTest, TheGroundStaysUnderTheWind) {
   EXPECT_LE(error.shareOver1, 0.01);
 }
 
+// Sun and clouds move, and frames are the same however the worker is delayed.
+TEST_F(SceneTimeTest, PicturesAreTheSameForAnyTiming) {
+  Scene scene = withDay();
+  scene.clouds->windEast_m_per_s = 50;
+  std::vector<Image8> first;
+  for (const std::uint32_t jitter : {0u, 5u}) {
+    const auto renderer = makeRenderer(*context, scene, {.width = 96, .height = 54, .bricksPerFrame = 64, .workerJitterSeed = jitter});
+    ASSERT_NE(renderer, nullptr);
+    renderer->settle(sideways(0, 0));
+    for (int i = 0; i < 12; ++i) {
+      renderer->setTime(i * 300.0);
+      renderer->frame(sideways(i, 200));
+      if (jitter == 0)
+        first.push_back(renderer->image());
+      else
+        ASSERT_EQ(renderer->image().rgba, first[std::size_t(i)].rgba) << "frame " << i;
+    }
+  }
+  EXPECT_GT(pixelError(first.front(), first.back()).rmse, 0.02) << "else nothing moved";
+}
+
 // A change of where the sun stands, of its day or of the wind needs no new light of the air.
 TEST_F(SceneTimeTest, ThePanelsMoveTheSunAtOnce) {
   const View view = sideways(0, 0);
