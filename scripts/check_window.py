@@ -384,7 +384,7 @@ def closes(c):
 
 def refuses(c):
     def run(name, environment):
-        done = subprocess.run([c.welkin, "view", "-q"], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=PATIENCE_S)
+        done = subprocess.run([c.welkin, "view", "-q"], env=environment, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
         said = done.stderr.strip()
         c.line(name, said or "nothing", "exit 1, one line, a hint at welkin render",
                done.returncode == 1 and len(said.splitlines()) == 1 and "welkin render" in said)

@@ -59,8 +59,7 @@ def recording(c):
     w.resize(*(int(n) for n in size.split("x")))
     shown = (w.wait_for(lambda s: s["flight"]["running"] == "" and not s["sidebar"], 2 * PATIENCE_S) or w.state())["flight"]["shown"]
     folder = os.path.join(c.out, "fly")
-    done = subprocess.run([c.welkin, "fly", paths[0], "--every", "1", "--quiet", "--out", folder], stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT,
-                          check=False)
+    done = subprocess.run([c.welkin, "fly", paths[0], "--every", "1", "--quiet", "--out", folder], capture_output=True, check=False)
     c.line("welkin fly replays it: exit status", done.returncode, "0", done.returncode == 0)
     views = sum(near_view(a["view"], b) for a, b in zip(shown, path["frames"]))
     c.line(f"views of {frames} frames replayed in the window", views, "all as recorded, to 1e-12", views == frames == len(shown))
@@ -108,7 +107,8 @@ def recording(c):
     second = os.path.join(w.shots, "welkin-path-2.json")
     with open(second, encoding="utf-8") as f:
         part = json.load(f)
-    c.line("the path that was cut", len(part["frames"]), "frames of the first one, to the bit", part["frames"] == path["frames"][cut["in"]:cut["out"] + 1])
+    c.line("the path that was cut", len(part["frames"]), "frames of the first one, to the bit",
+           part["frames"] == path["frames"][cut["in"]:cut["out"] + 1])
 
     w.press("Benchmark")
     w.wait_for(lambda s: s["flight"]["running"] == "benchmark" and s["flight"]["progress"] > 0)
