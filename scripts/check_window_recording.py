@@ -59,8 +59,7 @@ def recording(c):
     w.resize(*(int(n) for n in size.split("x")))
     shown = (w.wait_for(lambda s: s["flight"]["running"] == "" and not s["sidebar"], 2 * PATIENCE_S) or w.state())["flight"]["shown"]
     folder = os.path.join(c.out, "fly")
-    done = subprocess.run([c.welkin, "fly", paths[0], "--every", "1", "--quiet", "--out", folder], stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT,
-                          check=False)
+    done = subprocess.run([c.welkin, "fly", paths[0], "--every", "1", "--quiet", "--out", folder], capture_output=True, check=False)
     c.line("welkin fly replays it: exit status", done.returncode, "0", done.returncode == 0)
     views = sum(near_view(a["view"], b) for a, b in zip(shown, path["frames"]))
     c.line(f"views of {frames} frames replayed in the window", views, "all as recorded, to 1e-12", views == frames == len(shown))
@@ -82,9 +81,9 @@ def recording(c):
     w.fresh()  # the bar has its place then
     x0, y0, x1, y1 = w.field("flight bar")
     w.drag(x0 + 6, y1 - 6, x0 + 0.25 * (x1 - x0), y1 - 6)
-    w.wait_for(lambda s: s["flight"]["in"] > 0, 20)
+    w.wait_for(lambda s: s["flight"]["in"] > 0)
     w.drag(x1 - 6, y1 - 6, x0 + 0.6 * (x1 - x0), y1 - 6)
-    near = w.wait_for(lambda s: abs(s["flight"]["in"] / frames - 0.25) < 0.06 and abs(s["flight"]["out"] / frames - 0.6) < 0.06, 20)
+    near = w.wait_for(lambda s: abs(s["flight"]["in"] / frames - 0.25) < 0.06 and abs(s["flight"]["out"] / frames - 0.6) < 0.06)
     cut = (near or w.state())["flight"]
     c.line("in and out points after drags", [cut["in"], cut["out"]], "near 25 % and 60 %", near is not None)
     w.move(640, 600)
@@ -93,22 +92,23 @@ def recording(c):
     reset = w.until(lambda: w.click(x0 + 0.25 * (x1 - x0), y1 - 6, times=2), lambda s: s["flight"]["in"] == 0)
     c.line("in point after a double click", w.state()["flight"]["in"], "0", reset is not None)
     w.press("Undo edit")
-    cut = (w.wait_for(lambda s: s["flight"]["in"] > 0, 20) or w.state())["flight"]
+    cut = (w.wait_for(lambda s: s["flight"]["in"] > 0) or w.state())["flight"]
     c.line("and after undo", cut["in"], "not 0", cut["in"] > 0)
     w.press("Keep only this")
-    kept = w.wait_for(lambda s: s["flight"]["frames"] == cut["out"] - cut["in"] + 1, 20)
+    kept = w.wait_for(lambda s: s["flight"]["frames"] == cut["out"] - cut["in"] + 1)
     c.line("frames after the cut", w.state()["flight"]["frames"], f"{cut['out'] - cut['in'] + 1}", kept is not None)
     w.press("Undo edit")
-    back = w.wait_for(lambda s: s["flight"]["frames"] == frames, 20)
+    back = w.wait_for(lambda s: s["flight"]["frames"] == frames)
     w.press("Redo edit")
-    again = w.wait_for(lambda s: s["flight"]["frames"] < frames, 20)
+    again = w.wait_for(lambda s: s["flight"]["frames"] < frames)
     c.line("the cut undone and done again", w.state()["flight"]["frames"], "all frames, then those kept", back is not None and again is not None)
     w.press("Save path")
     w.wait_for(lambda s: "welkin-path-2.json" in s["message"])
     second = os.path.join(w.shots, "welkin-path-2.json")
     with open(second, encoding="utf-8") as f:
         part = json.load(f)
-    c.line("the path that was cut", len(part["frames"]), "frames of the first one, to the bit", part["frames"] == path["frames"][cut["in"]:cut["out"] + 1])
+    c.line("the path that was cut", len(part["frames"]), "frames of the first one, to the bit",
+           part["frames"] == path["frames"][cut["in"]:cut["out"] + 1])
 
     w.press("Benchmark")
     w.wait_for(lambda s: s["flight"]["running"] == "benchmark" and s["flight"]["progress"] > 0)

@@ -4,7 +4,7 @@ import glob
 import math
 import os
 
-SMALL = ["--budget", "128MiB", "--depth", "11"]
+SMALL = ["--budget", "64MiB", "--depth", "8"]  # all there soon, for it is waited for
 
 
 def differs(a, b):

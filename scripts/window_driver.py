@@ -64,11 +64,11 @@ def write_png(path, pixels):
 
 class Window:
     def __init__(self, build, screen, out, *arguments, size="1280x800", wait=True, config=None):
-        self.build, self.screen, self.shots = build, screen, os.path.join(out, "shots")
+        self.build, self.screen = build, screen
+        self.shots = tempfile.mkdtemp(prefix="shots-", dir=out)  # of no other window
         self.state_file = os.path.join(out, "state.json")
         if os.path.exists(self.state_file):
             os.remove(self.state_file)
-        os.makedirs(self.shots, exist_ok=True)
         self.environment = dict(os.environ, DISPLAY=screen.display, XDG_CONFIG_HOME=config or os.path.join(out, "config"))
         self.log = open(os.path.join(out, "log.txt"), "w", encoding="utf-8")
         command = [os.path.join(build, "welkin"), "view", *arguments, *(["--size", size] if size else []), "--state", self.state_file,
@@ -150,7 +150,7 @@ class Window:
 
     def field(self, name):
         """x0, y0, x1, y1 of a field of the panels, once it is there."""
-        state = self.wait_for(lambda s: name in s["fields"], 20)
+        state = self.wait_for(lambda s: name in s["fields"])
         return state["fields"][name] if state else None
 
     def press(self, name):
@@ -225,7 +225,7 @@ class Window:
 
     def capture(self, path=None, until=None):
         """The screen's pixels, once `until` holds of them (or after a while)."""
-        end = time.time() + 20
+        end = time.time() + PATIENCE_S
         pixels = self.screen.pixels()
         while until and not until(pixels) and time.time() < end and self.alive():
             time.sleep(0.05)

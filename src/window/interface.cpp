@@ -14,7 +14,6 @@ namespace welkin::window {
 Interface::Interface(Window& window) : window_(window) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
-  ImGui::GetIO().MouseDoubleClickTime = 0.4f;
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;  // the window captures the mouse itself
   ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
   ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -43,6 +42,8 @@ void Interface::begin() {
   }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  // Of two clicks within a slow frame, each press and release is given a frame of its own.
+  ImGui::GetIO().MouseDoubleClickTime = std::max(0.4f, 4 * ImGui::GetIO().DeltaTime);
   if (window_.mouseCaptured()) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
   ImGui::NewFrame();
 }

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "welkin/measure/debug_json.h"
 #include "welkin/physics/scene_io.h"
 #include "widgets.h"
 
@@ -31,17 +32,9 @@ Json flightJson(const Model& m, const std::vector<FlightShow::Shown>& shown) {
 }
 
 // Of the picture that is shown, not of the one that was chosen last.
-Json debugJson(const Model& m) {
+Json shownDebug(const Model& m) {
   if (!m.painted || !m.painted->debug) return {{"view", "none"}};
-  const DebugNumbers& n = *m.painted->debug;
-  return {{"view", kDebugViewNames[std::size_t(n.view)]},
-          {"pixels", n.pixels},
-          {"without", n.without},
-          {"not_a_number", n.nan},
-          {"minimum", n.minimum},
-          {"mean", n.mean},
-          {"maximum", n.maximum},
-          {"kinds", n.kinds}};
+  return Json::parse(measure::debugJson(*m.painted->debug));
 }
 
 }  // namespace
@@ -79,7 +72,7 @@ std::string stateJson(const Model& m, const Counts& c, const std::vector<FlightS
                      {"skip_empty", m.scene.quality.skipEmpty},
                      {"budget_bytes", m.scene.quality.budget_bytes}}},
                    {"flight", flightJson(m, shown)},
-                   {"debug", debugJson(m)},
+                   {"debug", shownDebug(m)},
                    {"message", m.message},
                    {"frame_rate", m.frameRate},
                    {"frame_ms", m.times.frame().median()},
