@@ -64,11 +64,12 @@ class Reader {
     }
     return found->get<double>();
   }
-  double number(const std::string& key) const {
+  double number(const std::string& key, double most) const {
     const std::string& value = text(key);
     double out = 0;
     const auto parsed = std::from_chars(value.data(), value.data() + value.size(), out);
-    if (parsed.ec != std::errc() || parsed.ptr != value.data() + value.size() || !std::isfinite(out)) fail(key, "a number");
+    if (parsed.ec != std::errc() || parsed.ptr != value.data() + value.size() || !(std::abs(out) <= most))
+      fail(key, fmt::format("a number of {:g} at most", most));
     return out;
   }
   [[noreturn]] void fail(const std::string& key, const std::string& expected) const {

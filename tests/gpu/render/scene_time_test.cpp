@@ -62,6 +62,18 @@ TEST_F(SceneTimeTest, TheSunMovesOverClouds) {
   EXPECT_LE(error.max_255, 1) << "the same passes over the same tree";
 }
 
+// Moved by less than its disc and then at rest, it is followed to the end all the same.
+TEST_F(SceneTimeTest, ASmallMoveIsFollowedOnceItRests) {
+  const View view = sideways(0, 0);
+  const auto renderer = makeRenderer(*context, withDay());
+  ASSERT_NE(renderer, nullptr);
+  renderer->settle(view);
+  renderer->setTime(50);  // 0.2 degrees
+  const FrameStats stats = renderer->settle(view);
+  EXPECT_EQ(stats.lightStale_deg, 0);
+  EXPECT_GE(stats.bricksLit, stats.residency.bricks - 1);
+}
+
 // What nobody sees gets its light last.
 TEST_F(SceneTimeTest, WhatIsSampledIsLitFirst) {
   const View view = sideways(0, 0);

@@ -252,6 +252,29 @@ TEST_P(Flight, LightFollowsTheSun) {
   EXPECT_TRUE(empty(w.last)) << "it rests";
 }
 
+// A sun that moved once, while the camera flies and bricks come all the time: each brick that was there is lit for it once, not again and again.
+TEST_P(Flight, AMoveOfTheSunIsWorkedOffWhileBricksCome) {
+  World w(GetParam(), 13, 3000, 3000);
+  w.settle(cameraAt(0.3, 0.1, 6000, 0, -0.3));
+  if (HasFatalFailure()) return;
+  const std::size_t there = w.last.stats.bricks;
+  w.toSun = sunAfter(0.1);
+  std::size_t lit = 0, came = 0;
+  int frames = 0;
+  for (; frames < 200; ++frames) {
+    const SelectionCamera camera = cameraAt(0.3 + 1e-4 * frames, 0.1, 6000, 0, -0.3);
+    w.step(camera, 200);
+    if (HasFatalFailure()) return;
+    came += w.last.generate.size();
+    lit += w.last.light.size();
+    if (frames > 1 && w.last.oldestSun == w.toSun && w.gpu.oldestLight_rad(w.toSun) == 0) break;
+  }
+  RecordProperty("frames", frames);
+  EXPECT_LT(frames, 150) << there << " bricks, 100 a frame, and some go on to come";
+  EXPECT_GT(came, 20u) << "else this tests nothing";
+  EXPECT_LT(lit, there + 4 * came) << "each once for the sun; new ones as in LightFollowsWhatComesTowardsTheSun";
+}
+
 // Slow enough, its light is left alone until it has moved by its own disc.
 TEST_P(Flight, ASlowSunIsLitForSeldom) {
   World w(GetParam(), 12, 2000, 2000);
