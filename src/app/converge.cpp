@@ -123,7 +123,8 @@ class Convergence {
     for (const auto& s : settings_)  // light is made for the detail that is sampled: no setting's may be left
       if (auto used = trees_->of(s).setMarch(truth_.quality); !used) return used;
     const auto share = [&](double part) { return (double(pose) + part) / double(poses_.views.size()); };
-    if (auto settled = trees_->settle(view, poses_.times_s[pose], [&](double f) { return update(share(f / rounds), "settling"); }); !settled) return settled;
+    const auto settling = [&](double f) { return update(share(f / rounds), "settling"); };
+    if (auto settled = trees_->settle(view, poses_.times_s[pose], settling); !settled) return settled;
     const auto truthShown = [&](double f) { return update(share(1 / rounds), fmt::format("truth {:.0f} %", 100 * f)); };
     if (auto looked = lookAtTruth(view, pose, truthShown); !looked) return looked;
     // Round 0 compiles shaders, warms caches and gives the pictures; the others are timed. They go there and back, so that no setting

@@ -73,7 +73,8 @@ Result<ThesisBudget> fillingBudget(const Poses& poses, Trees& trees, const Conve
   for (std::uint64_t budget = kFirstTry_bytes; budget <= kLastTry_bytes; budget *= 4) {
     setting.quality.budget_bytes = budget;
     if (auto opened = trees.open(setting); !opened) return opened.error();
-    if (auto settled = trees.settle(poses.views.front(), poses.times_s.front(), [](double) { return !stopRequested(); }); !settled) return settled.error();
+    const auto go = [](double) { return !stopRequested(); };
+    if (auto settled = trees.settle(poses.views.front(), poses.times_s.front(), go); !settled) return settled.error();
     const auto r = trees.settled(setting).residency;
     trees.close();
     const double full =

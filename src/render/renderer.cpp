@@ -114,7 +114,9 @@ struct Renderer::Impl {
   void workOnSky();
   void useAir(const Scene& changed);
   Result<void> setAir(const Scene& changed, AirChange how);
-  ViewFrame frameOf(const View& view) const { return viewFrame(turned(view, -wind_rad), scene.planet.radius_m, shellTop_m(), settings.width, settings.height); }
+  ViewFrame frameOf(const View& view) const {
+    return viewFrame(turned(view, -wind_rad), scene.planet.radius_m, shellTop_m(), settings.width, settings.height);
+  }
   FrameCounters counted() const;  // since beginPicture()
   void drawAside(const View& view, const std::function<void()>& march);  // a picture that leaves history, tree and exposure alone
   void beginPicture(const ViewFrame& frame, bool bare = false);  // camera, counters, sky

@@ -1,6 +1,7 @@
 // One work group lights one brick. The sun's depth of a sample is a near part, integrated sample by sample through one lattice spacing of
 // the brick's own level, and a far part from there to the top of the clouds, which is smooth: 4^3 shadow rays through the tree,
-// interpolated as they are stored (decision 18): of a step from 0 to 200 a tenth of the way is then 2, not 20. A far ray's level follows from position and distance alone, so neighbours agree on a face.
+// interpolated as they are stored: a tenth of the way from a depth of 0 to 200 is 0.5 then, not 20 (docs/decisions/0018). A far ray's level
+// follows from position and distance alone, so neighbours agree on a face.
 #include "lib/brick_image.glsl"
 #include "lib/shadow.glsl"
 #ifndef LIGHT_NEAR_SAMPLES

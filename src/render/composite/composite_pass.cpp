@@ -163,7 +163,8 @@ void CompositePass::swap(CompositePass& o) noexcept {
   display_.swap(o.display_);
   std::swap(width_, o.width_), std::swap(height_, o.height_);
   std::swap(albedo_, o.albedo_), std::swap(toSun_, o.toSun_), std::swap(sunIrradiance_, o.sunIrradiance_);
-  std::swap(sunRadius_rad_, o.sunRadius_rad_), std::swap(groundTurn_, o.groundTurn_), std::swap(parts_, o.parts_), std::swap(toneCurve_, o.toneCurve_);
+  std::swap(sunRadius_rad_, o.sunRadius_rad_), std::swap(groundTurn_, o.groundTurn_);
+  std::swap(parts_, o.parts_), std::swap(toneCurve_, o.toneCurve_);
   std::swap(albedoMap_, o.albedoMap_), std::swap(albedoBytes_, o.albedoBytes_), std::swap(account_, o.account_);
 }
 

@@ -90,10 +90,10 @@ class Renderer {
   // Light of clouds follows brick by brick, a frame's worth each; FrameStats::lightStale_deg says how far. With onlyView the plan stays that
   // of RenderSettings::time_s: by night it may have left out what a day needs.
   void setTime(double time_s);
-  // Planet's albedo, atmosphere, sun and mean wind from now on. Where the sun stands changes at once, as with setTime(). For the rest, Recompute: the old
-  // light is drawn until the new one is there; each frame works on it for sky_ms. Keep: at once, and what is scattered more than once stays
-  // that of the old air. Fails in one line and changes nothing: values out of range, memory, air where there was none or none where there
-  // was some, or (Keep) light that does not fit.
+  // Planet's albedo, atmosphere, sun and mean wind from now on. Where the sun stands changes at once, as with setTime(). For the rest,
+  // Recompute: the old light is drawn until the new one is there; each frame works on it for sky_ms. Keep: at once, and what is scattered
+  // more than once stays that of the old air. Fails in one line and changes nothing: values out of range, memory, air where there was none
+  // or none where there was some, or (Keep) light that does not fit.
   enum class AirChange { Recompute, Keep };
   Result<void> setAir(const Scene& changed, AirChange how);
   // Integrator, step rule, step, skipEmpty and detail (here: sampled at most) from the next picture on; the tree stays as it is. Fails, and
@@ -117,8 +117,8 @@ class Renderer {
   // All is drawn in the frame in which the clouds rest: the planet's, turned by their mean wind until now. A view, and where the sun stands, there.
   View inClouds(const View& view) const;
   glm::dvec3 sunInClouds() const;
-  // For the reference (docs/reference.md), in that frame: the view's rays, the tree as preview(view) would see it (clouds only), and preview() with what
-  // each pixel's ray through the clouds brings given, width * height from the top row, instead of marched.
+  // For the reference (docs/reference.md), in that frame: the view's rays, the tree as preview(view) would see it (clouds only), and
+  // preview() with what each pixel's ray through the clouds brings given, width * height from the top row, instead of marched.
   shared::CameraBlock camera(const View& view) const;
   TreeData tree(const View& view);
   Result<void> drawWith(const View& view, std::span<const shared::CloudWeights> clouds);
