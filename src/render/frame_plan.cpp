@@ -105,7 +105,7 @@ FramePlan planFrame(const Scene& given, const PlanFor& asked) {
 
   if (plan.sun && (plan.clouds || plan.air))
     plan.sunMayMove = !leave("sun-fixed", "light of bricks while the tree settles, what the sky's light was made with",
-                             "sun and weather stay: light is made once");
+                             "nobody looks while the tree settles, and the air stays: light is made once");
   if (!asked.onePicture && !plan.metered)
     plan.redraw = !leave("nothing-moves", "every pass, while camera, tree and light are as in the last frame",
                          "nothing moves: the picture is the same");
