@@ -19,6 +19,7 @@ constexpr double kGlideUp = 1.005, kGlideDown = 0.95;
 // A level is sampled from 3/8 of its range on: its child's range is half of it, and the last quarter of that blends with this level.
 constexpr double kSampledFrom = 0.375;
 constexpr std::uint32_t kMaxNewGroups = 1024;  // a step: bounds of their children cost most of it
+constexpr std::uint32_t kAtLeisure = 256;      // bricks a step that are lit again while nothing else is to do: 20 ms of two cores
 
 }  // namespace
 
@@ -208,11 +209,12 @@ void StreamState::Impl::writeOut(FrameEdits& edits, const FrameInput& input, boo
   relight.sun(input.toSun, steps);
   relight.lit(tree, changes.shown, steps, !input.snap);  // a cut lights all at its end: each once
   relight.take(tree, steps, edits.light);
-  // With nothing else to do as much as is generated otherwise; while bricks come, half of that for a sun that moved, and as much again as half
-  // of what is lit anyway. Not so on the way: old light is that of another tree, seen from elsewhere, and making it anew would be seen (pops
+  // With nothing else to do as much as is generated otherwise for a sun that moved or a cut, else at leisure; while bricks come, half of that
+  // for a sun that moved, and as much again as half of what is lit anyway. Not so on the way: old light is that of another tree, seen from elsewhere, and making it anew would be seen (pops
   // of 11 instead of 3 of 255 in the recorded descent).
   const std::uint32_t more = motion.changed() ? 0 : std::uint32_t(edits.light.size()) / 2;
-  std::uint32_t most = idle ? input.maxBricks : std::max(more, relight.sunMoved() ? input.maxBricks / 2 : 0);
+  const std::uint32_t leisure = relight.sunMoved() || input.snap ? input.maxBricks : std::min(input.maxBricks, kAtLeisure);
+  std::uint32_t most = idle ? leisure : std::max(more, relight.sunMoved() ? input.maxBricks / 2 : 0);
   sampled.clear();
   if (!relight.exact() && tree.group(kRootGroup).reachable) findSampled(kRootNode, NodeView(root, lookFrom()), {});
   if (relight.sunMoved()) most -= relight.follow(tree, sampled, steps, most, edits.light);
