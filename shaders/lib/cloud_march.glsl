@@ -65,17 +65,17 @@ struct BrickPath {
   vec3 slope;               // cells a metre; half as many in the parent
 };
 
-// Density fraction and encoded sun depth, a distance s into the brick; light belongs to the density that it was stored with.
-vec2 sampleField(BrickPath path, float s) {
-  vec2 data = vec2(0.0);
+// Density fraction, encoded sun depth and chords, a distance s into the brick; light belongs to the density that it was stored with.
+vec4 sampleField(BrickPath path, float s) {
+  vec4 data = vec4(0.0);
   uint from = path.brick;
   float share = 1.0 - path.parentWeight;
   vec3 at = path.local + path.slope * s;
   bool coarse = false;
   do {  // a second turn for the parent
-    vec2 found = sampleBrick(from, at);
+    vec4 found = vec4(sampleBrick(from, at), sampleChords(from, at));
     float own = found.x * share, both = data.x + own;
-    data = vec2(both, both > 0.0 ? mix(data.y, found.y, own / both) : found.y);
+    data = vec4(both, both > 0.0 ? mix(data.yzw, found.yzw, own / both) : found.yzw);
     coarse = !coarse && path.parentWeight > 0.0;
     from = path.parent;
     at = path.parentLocal + path.slope * (0.5 * s);
@@ -90,10 +90,16 @@ struct Gathered { float sun, open, all, weighted; };
 // A sample as its rule weighs it: extinction [1/m], source of sunlight and share of the sky's.
 struct Node { float extinction_per_m; float sun, sky; };
 
-Node nodeAt(BrickPath path, float s, CloudPhases phases) {
-  vec2 data = sampleField(path, s);
+// Where a ray's zenith angles change: cosines are (at + distance * along) / radius, of sun and ray.
+struct Zenith { float sunAt_m, sunAlong, viewAt_m, radius_m; };
+
+Node nodeAt(BrickPath path, float s, float distance_m, Zenith zenith, CloudPhases phases, out CloudSlab slab) {
+  vec4 data = sampleField(path, s);
   watchSample(data.x * tree.maxExtinction_per_m);
-  return Node(data.x * tree.maxExtinction_per_m, sunSource(phases, data.y), skyShare(data.y));
+  float muSun = (zenith.sunAt_m + distance_m * zenith.sunAlong) / zenith.radius_m, muView = (zenith.viewAt_m + distance_m) / zenith.radius_m;
+  slab = cloudSlab(decodeDepth(data.z), decodeDepth(data.w), muSun, muView, zenith.sunAlong);
+  float tau = decodeDepth(data.y);
+  return Node(data.x * tree.maxExtinction_per_m, sunSource(phases, tau, slab), openShare(tau, slab));
 }
 
 void gather(inout Gathered sum, float gain, Node node, float distance_m) {
@@ -116,8 +122,10 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   float entryHalf_m = 0.5 * max(segment.near, tree.sampleNear_m) / tree.detail;
   Gathered sum = Gathered(0.0, 0.0, 0.0, 0.0);
   // The last midpoint. At first: from above lit through nothing; else none, for a camera may be inside a cloud, or see its dark side first.
-  Node before = altitude > double(tree.bandTop_m) ? Node(0.0, sunSource(phases, 0.0), 1.0) : Node(-1.0, 0.0, 0.0);
-  float alongUp_m = float(dot(position, dvec3(dir))), shellRadius_m = float(radius);  // the ray's zenith cosine at t is (alongUp + near + t) / r
+  bool fromAbove = altitude > double(tree.bandTop_m);
+  Node before = Node(-1.0, 0.0, 0.0);
+  Zenith zenith = Zenith(float(dot(position, dvec3(tree.sunDir.xyz))), dot(dir, tree.sunDir.xyz), float(dot(position, dvec3(dir))), float(radius));
+  CloudSlab slab;
   int visit = 0;
   // Every loop ends with its condition, and both sides of an `if` are cheap: software GL runs a loop's body once however it begins,
   // and both sides of every branch.
@@ -163,7 +171,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
     // inside the parent: half the cells, from 0 or 3.5
     path.parentLocal = 0.5 * path.local + 3.5 * vec3(walkOctant(walk, t, level));
     uint perSample = path.parentWeight > 0.0 ? 2u : 1u;
-    float upright = min(abs(alongUp_m + away) / shellRadius_m, 1.0);  // zenith cosine of the ray, either way
+    float upright = min(abs(zenith.viewAt_m + away) / zenith.radius_m, 1.0);  // zenith cosine of the ray, either way
     StepPlace place = StepPlace(span, 0.5 * levelSteps(level) * tree.stepLength_m, span * cellsAlong * perStep * (2.0 / 7.0), path.parentWeight, upright,
                                 maxCodeValue(wordMaxCode(bounding)) * tree.maxExtinction_per_m * span, ray.transmittance, t, end, entryHalf_m,
                                 0.5 * max(away, tree.sampleNear_m) / tree.pixelDetail);
@@ -173,12 +181,12 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
     float i = integratorNode(INTEGRATOR, 0u);
     do {
       float s = i * dt;
-      Node node = nodeAt(path, s, phases);
+      Node node = nodeAt(path, s, away + s, zenith, phases, slab);
       ray.samples += perSample;
       SegmentGains g = segmentGains(INTEGRATOR, vec4(node.extinction_per_m, 0.0, 0.0, 0.0), dt);
       gather(sum, ray.transmittance * g.gain.x, node, t + s);
 #if INTEGRATOR == 5
-      if (before.extinction_per_m < 0.0) before = node;
+      if (before.extinction_per_m < 0.0) before = fromAbove ? Node(0.0, sunSource(phases, 0.0, slab), openShare(0.0, slab)) : node;
       gather(sum, ray.transmittance * g.gain.y, before, t + s);
       before = node;
 #endif
@@ -193,7 +201,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
 #else
     float dt = span / segmentCount(STEP_RULE, tree.step, place);
 #endif
-    Node front = nodeAt(path, 0.0, phases);
+    Node front = nodeAt(path, 0.0, away, zenith, phases, slab);
     ray.samples += perSample;
     float s = 0.0;
     bool more;
@@ -203,7 +211,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       Node nodes[4];
       nodes[0] = front;
       for (uint i = 1u; i < 4u; ++i) {
-        if (i <= last) nodes[i] = nodeAt(path, s + integratorNode(INTEGRATOR, i) * length_m, phases);
+        if (i <= last) nodes[i] = nodeAt(path, s + integratorNode(INTEGRATOR, i) * length_m, away + s + integratorNode(INTEGRATOR, i) * length_m, zenith, phases, slab);
         else nodes[i] = Node(0.0, 0.0, 0.0);
       }
       ray.samples += last * perSample;

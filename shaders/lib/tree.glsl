@@ -5,6 +5,7 @@
 layout(std140, binding = WK_TREE_BINDING) uniform TreeUniforms { TreeBlock tree; };
 layout(binding = WK_TREE_UNIT) uniform usamplerBuffer u_tree;
 layout(binding = WK_BRICK_UNIT) uniform sampler3D u_bricks[BRICK_TEXTURES];
+layout(binding = WK_CHORDS_UNIT) uniform usamplerBuffer u_chords;
 
 // The node that holds position p at `level` or at the deepest resident level above: from the map of `mapLevel` (from the root, for a
 // level above the coarsest map), then down the nodes. The word's level is the node's own.
@@ -42,4 +43,14 @@ vec2 sampleBrick(uint brick, vec3 cells) {
 #else
   return textureLod(u_bricks[0], (vec3(brickTexel(brick)) + cells) * scale, 0.0).rg;
 #endif
+}
+
+// Encoded optical depths of the cloud's chords, along the sun's line and upright, at `cells` of a brick: trilinear between its corners.
+vec2 sampleChords(uint brick, vec3 cells) {
+  uvec4 low = texelFetch(u_chords, int(2u * brick)), high = texelFetch(u_chords, int(2u * brick + 1u));
+  vec3 f = clamp(cells, 0.0, 7.0) * (1.0 / 7.0);
+  vec4 y0 = mix(vec4(unpackUnorm2x16(low.x), unpackUnorm2x16(high.x)), vec4(unpackUnorm2x16(low.y), unpackUnorm2x16(high.y)), f.x);
+  vec4 y1 = mix(vec4(unpackUnorm2x16(low.z), unpackUnorm2x16(high.z)), vec4(unpackUnorm2x16(low.w), unpackUnorm2x16(high.w)), f.x);
+  vec4 z = mix(y0, y1, f.y);
+  return mix(z.xy, z.zw, f.z);
 }

@@ -63,9 +63,8 @@ double bound(const Scene& scene, const Camera& c, glm::dvec3 dir) {
   if (r > 0 && angle < r + 2 * pixel_rad) most += 1.36 / (kPi * drawn2);  // limb darkening: 1 / (1 - 0.78 / 3) in the middle
   if (scene.clouds) {
     const auto phases = shared::cloudPhases(float(cosSun));
-    double cloud = 0;
-    for (int i = 0; i <= 64; ++i) cloud = std::max(cloud, double(shared::sunSource(phases, float(i) / 64)));
-    most += 1.01 * cloud;
+    // Direct and broadened beam are at most 1 together; of the diffuse part no factor of sunSource is above 1.3 / pi.
+    most += 1.01 * std::max(double(phases.single), double(phases.broad)) + 1.3 / kPi;
   }
   if (scene.atmosphere) {
     double air = 0;

@@ -8,6 +8,7 @@
 #include "welkin/measure/stress.h"
 #include "welkin/physics/root_frame.h"
 #include "welkin/render/renderer.h"
+#include "welkin/shared/cloud_light.glsl.h"
 #include "welkin/shared/step_rules.glsl.h"
 
 namespace welkin::measure {
@@ -108,9 +109,9 @@ struct Studio {
       cell.depthPerStep = depthPerStep(shot, settled.sampleDetail);
       cell.predictedError = predictedExcess(quality.integrator, *cell.depthPerStep);
       if (quality.integrator == Integrator::ExponentialConstant) {
-        // Its light comes from the middle of the step, and that of a cloud falls by e in four optical depths or fewer (sunSource).
+        // Its light comes from the middle of the step, and that of a cloud falls by e in three optical depths or more (sunSource: kSimilar).
         const double x = *cell.depthPerStep;
-        cell.predictedError = -std::expm1(-0.25 * x * (0.5 - shared::emissionDepth(float(x))));
+        cell.predictedError = -std::expm1(-double(shared::kSimilar) * x * (0.5 - shared::emissionDepth(float(x))));
       }
       cell.predictedFail = cell.predictedError > cell.limit;
       cells.push_back(std::move(cell));

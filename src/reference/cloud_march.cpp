@@ -51,6 +51,16 @@ struct Integrand {
   const CloudAlong& field;
   CloudPhases phases;
   double length;  // distances are taken as a share of it
+  glm::dvec3 start, direction, towardsSun;
+
+  // Of the sun's and the sky's light at a distance.
+  glm::dvec2 sources(double t, const CloudSample& sample) const {
+    const glm::dvec3 up = glm::normalize(start + direction * t);
+    const CloudSlab slab = cloudSlab(decodeDepth(sample.sunChord), decodeDepth(sample.upChord), glm::dot(up, towardsSun), glm::dot(up, direction),
+                                     glm::dot(direction, towardsSun));
+    const double tau = decodeDepth(sample.encodedDepth);
+    return {sunSource(phases, tau, slab), openShare(tau, slab)};
+  }
 
   Piece piece(double from, double to) const {
     const double h = to - from;
@@ -62,8 +72,8 @@ struct Integrand {
       for (std::size_t j = 0; j < 4; ++j) tau += kGauss.upTo[i][j] * samples[j].extinction_per_m;
       const double weight = kGauss.w[i] * h * samples[i].extinction_per_m;
       out.depth += weight;
-      const double gain = weight * std::exp(-tau * h), encoded = samples[i].encodedDepth;
-      out.brings += gain * glm::dvec4(sunSource(phases, encoded), skyShare(encoded), (from + h * kGauss.x[i]) / length, 1);
+      const double gain = weight * std::exp(-tau * h), at = from + h * kGauss.x[i];
+      out.brings += gain * glm::dvec4(sources(at, samples[i]), at / length, 1);
     }
     return out;
   }
@@ -113,7 +123,8 @@ CloudTruth marchClouds(const CloudField& field, const CameraRay& ray, double tol
   if (stretch.empty()) return out;
   const auto along = field.along(ray, stretch.near);
   const double end = stretch.far - stretch.near;
-  const Integrand integrand{*along, cloudPhases(glm::dot(ray.direction, field.towardsSun())), end};
+  const glm::dvec3 sun = field.towardsSun();
+  const Integrand integrand{*along, cloudPhases(glm::dot(ray.direction, sun)), end, ray.position_planet + ray.direction * stretch.near, ray.direction, sun};
   Sum sum;
   for (double t = 0; t < end && sum.transmittance >= kNothingLeft;) {
     const double next = along->enter(t, end);

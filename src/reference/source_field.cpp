@@ -30,31 +30,49 @@ class SourceAlong final : public CloudAlong {
     if (!lit_) {
       for (std::size_t i = 0; i < 3; ++i) {
         const double at = from_ + 0.5 * double(i) * (to_ - from_);
-        light_[i] = i == 0 && at == lastAt_ ? last_ : encodeDepth(field_.sunDepth(start_ + direction_ * at));
+        light_[i] = i == 0 && at == lastAt_ ? last_ : lightAt(start_ + direction_ * at);
       }
       lastAt_ = to_, last_ = light_[2], lit_ = true;
     }
     const double x = (t - from_) / (to_ - from_);
-    const double encoded = light_[0] * (1 - x) * (1 - 2 * x) + light_[1] * 4 * x * (1 - x) + light_[2] * x * (2 * x - 1);
-    return {density, std::clamp(encoded, 0.0, 1.0)};
+    const glm::dvec3 light = light_[0] * ((1 - x) * (1 - 2 * x)) + light_[1] * (4 * x * (1 - x)) + light_[2] * (x * (2 * x - 1));
+    const glm::dvec3 encoded = glm::clamp(light, 0.0, 1.0);
+    return {density, encoded.x, encoded.y, encoded.z};
   }
 
  private:
+  // Encoded depths: towards the sun, chords.
+  glm::dvec3 lightAt(glm::dvec3 at) const {
+    const double sun = field_.sunDepth(at);
+    const glm::dvec2 chords = field_.chords(at, sun);
+    return {encodeDepth(sun), encodeDepth(chords.x), encodeDepth(chords.y)};
+  }
+
   const SourceField& field_;
   SourceWalk walk_;
   glm::dvec3 start_, direction_;
   double from_ = 0, to_ = 0;
   bool empty_ = true;
   mutable bool lit_ = false;
-  mutable double last_ = 0, lastAt_ = -1;
-  mutable std::array<double, 3> light_{};
+  mutable double lastAt_ = -1;
+  mutable glm::dvec3 last_{};
+  mutable std::array<glm::dvec3, 3> light_{};
 };
 
 }  // namespace
 
 SourceWalk::SourceWalk(const DensitySource& source, const RootFrame& root, const SourceSettings& settings, glm::dvec3 start_planet,
                        glm::dvec3 direction)
-    : source_(source), root_(root), settings_(settings), start_(start_planet), direction_(direction) {}
+    : source_(source), root_(root), settings_(settings) {
+  restart(start_planet, direction);
+}
+
+// A direction that drifts across the whole root by less than a step past a face is parallel to the face: else a ray within it would crawl along.
+void SourceWalk::restart(glm::dvec3 start_planet, glm::dvec3 direction) {
+  start_ = start_planet, direction_ = direction;
+  for (int a = 0; a < 3; ++a)
+    if (std::abs(direction[a]) < kPastFace_steps * 0x1p-32) direction_[a] = 0;
+}
 
 Bounds SourceWalk::boundsAt(glm::uvec3 p, std::uint32_t level) {
   const glm::uvec3 corner = shared::nodeCorner(p, level);
@@ -144,6 +162,21 @@ double SourceField::sunDepth(glm::dvec3 position_planet) const {
   if (s.empty()) return 0;
   SourceWalk walk(source_, root_, settings_, position_planet, settings_.towardsSun);
   return std::min(depthWithin(walk, s, kOpaqueDepth), kOpaqueDepth);
+}
+
+double SourceField::halfChord(glm::dvec3 position_planet, glm::dvec3 direction) const {
+  const CameraRay ray = reference::rayFrom(position_planet, direction, root_.planetRadius_m);
+  const double leak = kLeakVoxels / 7 * root_.nodeSize_m(settings_.detail.level(glm::length(position_planet - settings_.eye_planet)));
+  Stretch s = shellStretch(ray, -2 * root_.planetRadius_m, source_.top_m() + leak);
+  s.far = std::min(s.far, kChordReach_m);
+  if (s.empty()) return 0;
+  SourceWalk walk(source_, root_, settings_, position_planet, direction);
+  return std::min(depthWithin(walk, s, kOpaqueDepth), kOpaqueDepth);
+}
+
+glm::dvec2 SourceField::chords(glm::dvec3 position_planet, double sunDepth) const {
+  const glm::dvec3 up = glm::normalize(position_planet);
+  return {sunDepth + halfChord(position_planet, -settings_.towardsSun), halfChord(position_planet, up) + halfChord(position_planet, -up)};
 }
 
 double SourceField::opticalDepth(const CameraRay& ray, double most_m) const {

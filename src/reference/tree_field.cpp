@@ -65,15 +65,17 @@ class TreeAlong final : public CloudAlong {
 
   CloudSample at(double t) const override {
     const glm::dvec3 local = glm::clamp(cells_ + cellsPerMetre_ * t, 0.0, 7.0);
-    glm::dvec2 own = own_.at(local);
+    glm::dvec4 own{own_.at(local), field_.chords(brick_, local)};
     if (faded_) {
       const double weight = field_.fade() == Fade::Smooth ? field_.detail().parentWeight(want_, from_m_ + t) : weight_;
-      const glm::dvec2 parent = parent_.at(glm::clamp(0.5 * local + half_, 0.0, 7.0));
+      const glm::dvec3 inParent = glm::clamp(0.5 * local + half_, 0.0, 7.0);
+      const glm::dvec4 parent{parent_.at(inParent), field_.chords(parentBrick_, inParent)};
       // light belongs to the density it was stored with
       const double a = own.x * (1 - weight), b = parent.x * weight;
-      own = {a + b, a + b > 0 ? (own.y * a + parent.y * b) / (a + b) : own.y};
+      if (a + b > 0) own += (parent - own) * (b / (a + b));
+      own.x = a + b;
     }
-    return {std::max(own.x, 0.0) * density_per_m_, own.y};
+    return {std::max(own.x, 0.0) * density_per_m_, own.y, own.z, own.w};
   }
 
  private:
@@ -146,6 +148,13 @@ glm::dvec2 TreeField::texel(std::uint32_t brick, glm::uvec3 i) const {
   return {texel[0] / 65535.0, texel[1] / 65535.0};
 }
 
+glm::dvec2 TreeField::chords(std::uint32_t brick, glm::dvec3 cells) const {
+  const auto& corners = data_.chords[brick];
+  const glm::dvec3 f = cells / 7.0;
+  const auto x = [&](std::size_t i) { return glm::mix(glm::dvec2(corners[i]), glm::dvec2(corners[i + 1]), f.x); };
+  return glm::mix(glm::mix(x(0), x(2), f.y), glm::mix(x(4), x(6), f.y), f.z) / 65535.0;
+}
+
 Stretch TreeField::stretchOf(const CameraRay& ray) const {
   const shared::TreeBlock& block = data_.block;
   const double top = double(block.bandTop_m), limb = limbShare(ray);
@@ -180,6 +189,7 @@ std::uint64_t contentHash(const TreeData& data) {
           const std::size_t row = at.x + std::size_t{shared::kAtlasX * 8} * (at.y + y + std::size_t{shared::kAtlasY * 8} * (at.z + z));
           hash.add(data.bricks[texture].data() + 2 * row, 8 * 2 * sizeof(std::uint16_t));
         }
+      hash.add(data.chords[brick].data(), sizeof(data.chords[brick]));
     }
     if (open)
       for (std::uint32_t i = 0; i < 8; ++i) self(self, data.nodes[words.group + i]);

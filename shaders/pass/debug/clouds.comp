@@ -3,7 +3,7 @@
 #include "welkin/shared/debug.glsl.h"
 #if DEBUG_VIEW == WK_DEBUG_LIGHT
 // In place of the light itself the share of the sun's that arrives unscattered: the ray then sums its mean over what is seen.
-#define sunSource(phases, encoded) exp(-decodeDepth(encoded))
+#define sunSource(phases, tau, slab) exp(-(tau))
 #endif
 #include "lib/cloud_march.glsl"
 #include "lib/shadow.glsl"

@@ -2,20 +2,27 @@
 // the brick's own level, and a far part from there to the top of the clouds, which is smooth: 4^3 shadow rays through the tree,
 // interpolated as they are stored: a tenth of the way from a depth of 0 to 200 is 0.5 then, not 20 (docs/decisions/0018). A far ray's level
 // follows from position and distance alone, so neighbours agree on a face.
+// At the brick's eight corners the cloud's chords are kept (shared/cloud_light.glsl.h): along a chord its depth stays the same, so they are smooth
+// in a deck thinner than a voxel too. Three half chords a corner, the fourth being the way to the sun: 24 rays.
 #include "lib/brick_image.glsl"
 #include "lib/shadow.glsl"
+#define CHORD_COARSER 1u
+#define CHORD_SAMPLES 7
 #ifndef LIGHT_NEAR_SAMPLES
 #define LIGHT_NEAR_SAMPLES 3
 #endif
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(std430, binding = WK_BRICK_JOBS_BINDING) readonly buffer Jobs { GpuBrickJob jobs[]; };
+layout(std430, binding = WK_CHORDS_BINDING) writeonly buffer ChordsOut { uint chordsOut[]; };  // 8 a brick: packChords
 uniform uint u_firstJob;
 
 const float kNearCells = 7.0 / 3.0;  // one spacing of the lattice
 const int kNearSamples = LIGHT_NEAR_SAMPLES;
 
 shared float s_far[4][4][4];
+shared float s_cornerSun[8];    // optical depth towards the sun at corners
+shared float s_halfChord[3][8];  // away from the sun, up, down
 
 // Encoded.
 float farDepth(uvec3 i) {
@@ -58,5 +65,16 @@ void main() {
     walk.origin = brickSample(uvec3(job.x, job.y, job.z), job.level, i);
     float depth = decodeDepth(farDepth(i)) + perSample * nearSum(walk, job.level, cell_m, mapLevel);
     storeTexel(tree, job.brick, i, vec2(loadTexel(tree, job.brick, i).x, encodeDepth(depth)));
+    uvec3 corner = i / 7u;
+    if (corner * 7u == i) s_cornerSun[corner.x | (corner.y << 1u) | (corner.z << 2u)] = depth;
   }
+  uint ray = gl_LocalInvocationIndex, corner = ray & 7u, kind = ray >> 3u;
+  if (kind < 3u) {
+    dvec3 at = start - dvec3(l) * (size_m / double(3.0)) + dvec3(corner & 1u, (corner >> 1u) & 1u, corner >> 2u) * size_m;
+    vec3 up = vec3(at / length(at));
+    s_halfChord[kind][corner] = chordDepth(at, kind == 0u ? -tree.sunDir.xyz : kind == 1u ? up : -up, max(job.level, CHORD_COARSER) - CHORD_COARSER);
+  }
+  barrier();
+  if (ray < 8u)
+    chordsOut[8u * job.brick + ray] = packUnorm2x16(vec2(encodeDepth(s_cornerSun[ray] + s_halfChord[0][ray]), encodeDepth(s_halfChord[1][ray] + s_halfChord[2][ray])));
 }

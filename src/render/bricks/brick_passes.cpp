@@ -99,6 +99,7 @@ void BrickPasses::light(const ResidentTree& tree, const std::vector<BrickJob>& j
   if (jobs.empty()) return;
   tree.bind();
   tree.bindBrickImages(GL_READ_WRITE);
+  tree.bindChords();
   jobs_.bind(GL_SHADER_STORAGE_BUFFER, WK_BRICK_JOBS_BINDING);
   for (std::size_t first = 0; first < jobs.size(); first += kBatch) {
     const std::size_t count = std::min<std::size_t>(kBatch, jobs.size() - first);

@@ -11,13 +11,15 @@ namespace welkin {
 using shared::kMapEdge;
 
 namespace {
-std::uint64_t layerBytes(int brickBits) { return std::uint64_t{shared::kBricksPerLayer} * 512 * 2 * std::uint64_t(brickBits / 8); }  // two numbers a sample
 constexpr std::uint64_t kMapBytes = std::uint64_t{shared::kMapCells} * sizeof(shared::NodeWords);
 constexpr std::uint64_t kGroupBytes = 64;
+constexpr std::uint64_t kChordBytes = 32;  // of a brick: two numbers of 16 bits at eight corners
 // Non-empty children of a split node are two to six of eight; three groups to four bricks leaves room for the sparse end.
 constexpr std::uint32_t kGroupsPerLayer = shared::kBricksPerLayer * 3 / 4;
 constexpr std::uint64_t kJobBytes = 16;
 
+// A sample has two numbers.
+std::uint64_t layerBytes(int brickBits) { return shared::kBricksPerLayer * (512 * 2 * std::uint64_t(brickBits / 8) + kChordBytes); }
 std::uint32_t mapBaseOf(std::uint32_t depth) { return std::min(shared::kMapShift, depth); }
 std::uint64_t fixedBytes(std::uint32_t depth) {
   const std::uint32_t levels = depth - mapBaseOf(depth) + 1;
@@ -50,11 +52,12 @@ std::uint64_t TreeLayout::leastBytes(std::uint32_t depth) { return fixedBytes(de
 
 ResidentTree::ResidentTree(ResidentTree&& o) noexcept
     : layout_(o.layout_), root_(o.root_), words_(std::move(o.words_)), block_(std::move(o.block_)), mapJobs_(std::move(o.mapJobs_)),
-      wordsView_(std::exchange(o.wordsView_, 0)), bricks_(std::move(o.bricks_)), build_(std::move(o.build_)), map_(o.map_),
+      chords_(std::move(o.chords_)), wordsView_(std::exchange(o.wordsView_, 0)), chordsView_(std::exchange(o.chordsView_, 0)), bricks_(std::move(o.bricks_)), build_(std::move(o.build_)), map_(o.map_),
       mapCells_(o.mapCells_), jobs_(std::move(o.jobs_)) {}
 
 ResidentTree::~ResidentTree() {
-  if (wordsView_) glDeleteTextures(1, &wordsView_);
+  for (const GLuint view : {wordsView_, chordsView_})
+    if (view) glDeleteTextures(1, &view);
 }
 
 std::size_t ResidentTree::nodeOffset(std::uint32_t node) const {
@@ -78,11 +81,17 @@ Result<ResidentTree> ResidentTree::create(gpu::MemoryAccount& account, const Tre
     if (!bricks) return bricks.error();
     tree.bricks_.push_back(std::move(*bricks));
   }
+  auto chords = gpu::Buffer::create(account, "chords", std::uint64_t{layout.bricks} * kChordBytes);
+  if (!chords) return chords.error();
   auto build = gpu::Program::compute("pass/maps/build.comp");
   if (!build) return build.error();
   tree.words_ = std::move(*words);
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &tree.wordsView_);
   glTextureBuffer(tree.wordsView_, GL_RG32UI, tree.words_.id());
+  tree.chords_ = std::move(*chords);
+  tree.chords_.clear();
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &tree.chordsView_);
+  glTextureBuffer(tree.chordsView_, GL_RGBA32UI, tree.chords_.id());
   tree.block_ = std::move(*block);
   tree.mapJobs_ = std::move(*jobs);
   tree.build_ = std::move(*build);
@@ -203,8 +212,11 @@ void ResidentTree::updateBlock(const shared::TreeBlock& values) {
 void ResidentTree::bind() const {
   block_.bind(GL_UNIFORM_BUFFER, WK_TREE_BINDING);
   glBindTextureUnit(WK_TREE_UNIT, wordsView_);
+  glBindTextureUnit(WK_CHORDS_UNIT, chordsView_);
   for (std::size_t i = 0; i < bricks_.size(); ++i) bricks_[i].bind(static_cast<GLuint>(WK_BRICK_UNIT + i));
 }
+
+void ResidentTree::bindChords() const { chords_.bind(GL_SHADER_STORAGE_BUFFER, WK_CHORDS_BINDING); }
 
 void ResidentTree::bindBrickImages(GLenum access) const {
   for (std::size_t i = 0; i < bricks_.size(); ++i) bricks_[i].bindImage(static_cast<GLuint>(i), access);

@@ -38,6 +38,7 @@ class ResidentTree {
   void updateBlock(const shared::TreeBlock& block);          // detail, band, sun … ; the layout's fields are filled in here
   void bind() const;                                         // nodes, maps, bricks, block
   void bindBrickImages(GLenum access) const;
+  void bindChords() const;                                   // for writing
   TreeData readBack() const;                                 // waits for the GPU
   const TreeLayout& layout() const { return layout_; }
   gpu::Defines defines() const {
@@ -60,8 +61,8 @@ class ResidentTree {
 
   TreeLayout layout_;
   RootFrame root_;
-  gpu::Buffer words_, block_, mapJobs_;  // words: octree maps, then nodes
-  GLuint wordsView_ = 0;                 // the same as a buffer texture
+  gpu::Buffer words_, block_, mapJobs_, chords_;  // words: octree maps, then nodes; chords: of clouds at bricks' corners
+  GLuint wordsView_ = 0, chordsView_ = 0;         // the same as buffer textures
   std::vector<gpu::Texture> bricks_;
   gpu::Program build_;
   std::array<Map, shared::kMaxDepth + 1> map_;

@@ -139,13 +139,14 @@ TEST_F(Twins, NoiseAndCloudLight) {
     const float n = noise3(p, shift, zShift, x.w);
     const float cosine = float(x.x >> 8) / 8388608.0f - 1, encoded = float(x.y >> 8) / 16777216.0f;
     const CloudPhases phases = cloudPhases(cosine);
+    const CloudSlab slab = cloudSlab(float(x.z >> 8) / 1048576.0f, float(x.w >> 8) / 1048576.0f, 0.5f * cosine, 0.3f, cosine);
     const float floats[10] = {cellFraction(x.x, shift),
                               n,
                               billowNoise(n, 0.7f),
                               phases.single,
-                              phases.second,
-                              phases.third,
-                              sunSource(phases, encoded),
+                              phases.broad,
+                              openShare(20 * encoded, slab),
+                              sunSource(phases, 20 * encoded, slab),
                               skySource(encoded),
                               groundSource(1, encoded),
                               cloudShadow(encoded * 20)};

@@ -16,7 +16,8 @@ void main() {
   float n = noise3(x.xyz, shift, zShift, x.w);
   float cosine = float(x.x >> 8u) / 8388608.0 - 1.0, encoded = float(x.y >> 8u) / 16777216.0;
   CloudPhases phases = cloudPhases(cosine);
-  float floats[10] = float[10](cellFraction(x.x, shift), n, billowNoise(n, 0.7), phases.single, phases.second, phases.third, sunSource(phases, encoded),
-    skySource(encoded), groundSource(1.0, encoded), cloudShadow(encoded * 20.0));
+  CloudSlab slab = cloudSlab(float(x.z >> 8u) / 1048576.0, float(x.w >> 8u) / 1048576.0, 0.5 * cosine, 0.3, cosine);
+  float floats[10] = float[10](cellFraction(x.x, shift), n, billowNoise(n, 0.7), phases.single, phases.broad, openShare(20.0 * encoded, slab),
+    sunSource(phases, 20.0 * encoded, slab), skySource(encoded), groundSource(1.0, encoded), cloudShadow(encoded * 20.0));
   for (uint i = 0u; i < 10u; ++i) answers[o + 4u + i] = floatBitsToUint(floats[i]);
 }

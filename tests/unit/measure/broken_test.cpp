@@ -153,7 +153,7 @@ TEST(Broken, phaseFunctionsAreCaught) {
     phases.emplace_back("Henyey-Greenstein", [=](float c) { return shared::phaseHenyeyGreenstein(c, g); });
     phases.emplace_back("Cornette-Shanks", [=](float c) { return shared::phaseCornetteShanks(c, g); });
   }
-  for (const float sharpness : {1.0f, 0.6f, 0.35f}) phases.emplace_back("cloud", [=](float c) { return shared::cloudPhase(c, sharpness); });
+  for (const float sharpness : {1.0f, shared::kBroadened}) phases.emplace_back("cloud", [=](float c) { return shared::cloudPhase(c, sharpness); });
   for (uint type = 0; type < 4; ++type) phases.emplace_back("by type", [=](float c) { return shared::phaseValue(type, 0.7f, c); });
   for (const auto& [name, phase] : phases) {
     EXPECT_TRUE(phaseIsNormalised(phase)) << name;

@@ -39,33 +39,41 @@ struct Told final : CloudField {
     out->told = this;
     return out;
   }
-  glm::dvec3 towardsSun() const override { return {0, 0, 1}; }
+  glm::dvec3 towardsSun() const override { return {0, 1, 0}; }  // at right angles to the ray, and to all zeniths along it
   std::uint64_t contentHash() const override { return 1; }
 };
 
 CameraRay anyRay() { return rayFrom({0, 0, kRadius_m + 10}, {1, 0, 0}, kRadius_m); }
 const CloudPhases kSideways = cloudPhases(0);
 
+// As thick upright as along the sun's line: light that does not depend on the zenith.
+constexpr double kChord = 0.6;
+CloudSlab ball() {
+  const double depth = decodeDepth(kChord);
+  return cloudSlab(depth, depth, 0, 0, 0);
+}
+
 TEST(CloudMarch, EvenCloudOfAnyThickness) {
   for (const double depth : {1e-6, 1e-3, 0.1, 1.0, 10.0, 20.0, 1e3, 1e6}) {
     Told cloud;
     cloud.length_m = 500;
-    cloud.sample = [&](double) { return CloudSample{depth / 500, 0.3}; };
+    cloud.sample = [&](double) { return CloudSample{depth / 500, 0.3, kChord, kChord}; };
     const CloudTruth t = marchClouds(cloud, anyRay(), 1e-9);
     const double opacity = -std::expm1(-depth);
     EXPECT_TRUE(t.converged);
     // below a transmittance of 1e-9 it ends
     EXPECT_NEAR(t.transmittance, std::exp(-depth), 1e-9) << depth;
-    EXPECT_NEAR(t.sun, opacity * sunSource(kSideways, 0.3), 1e-9) << depth;
-    EXPECT_NEAR(t.sky, opacity * 0.7 * 0.5 / M_PI, 1e-9) << depth;
-    EXPECT_NEAR(t.ground, opacity * (1 - 0.75 * 0.7) * 0.5 / M_PI, 1e-9) << depth;
+    const double open = openShare(decodeDepth(0.3), ball());
+    EXPECT_NEAR(t.sun, opacity * sunSource(kSideways, decodeDepth(0.3), ball()), 1e-9) << depth;
+    EXPECT_NEAR(t.sky, opacity * open / M_PI, 1e-9) << depth;
+    EXPECT_NEAR(t.ground, opacity * (1 - open) / M_PI, 1e-9) << depth;
     // where light is taken from on the average: 1/sigma - L / (e^tau - 1), relative to the rounding of 1 - T for thin cloud
     const double where = 500 * (1 / depth - (depth < 700 ? 1 / std::expm1(depth) : 0));
     EXPECT_NEAR(t.distance_m, where, 500 * (1e-9 / opacity + 1e-9)) << depth;
   }
 }
 
-// Density and light that change along the ray: extinction k t, and a source that is linear in exp(-tau), by hand.
+// Density and light that change along the ray: extinction k t, and light that falls behind an edge, by a fine sum.
 TEST(CloudMarch, SlopesAndJumps) {
   Told ramp;
   ramp.length_m = 100;
@@ -82,19 +90,16 @@ TEST(CloudMarch, SlopesAndJumps) {
   Told jump;
   jump.length_m = 100;
   jump.breaks = {40};
-  jump.sample = [](double t) { return t < 40 ? CloudSample{1e-4, 0} : CloudSample{100, encodeDepth(100 * (t - 40))}; };
+  jump.sample = [](double t) { return t < 40 ? CloudSample{1e-4, 0, kChord, kChord} : CloudSample{100, encodeDepth(100 * (t - 40)), kChord, kChord}; };
   const CloudTruth j = marchClouds(jump, anyRay(), 1e-9);
-  // behind the edge: the source by powers of e^-tau; octaves a e^-tau + b e^(-tau/2) + c e^(-tau/4) against the light taken away,
-  // e^-tau: a/2 + b/1.5 + c/1.25, and the diffuse part by a fine sum
-  double diffuse = 0;
+  double behind = 0;  // the edge, over the light that is taken away
   const int n = 2'000'000;
   for (int i = 0; i < n; ++i) {
-    const double u = (i + 0.5) / n, tau = -std::log(u);  // u: light that is left
-    diffuse += kDiffuseGain / (4 * M_PI) * (1 - 0.8 * std::sqrt(u)) * 5 / (5 + tau) / n;
+    const double left = (i + 0.5) / n;
+    behind += sunSource(kSideways, -std::log(left), ball()) / n;
   }
   const double kept = std::exp(-0.004);
-  const double expected =
-      (1 - kept) * sunSource(kSideways, 0) + kept * (kSideways.single / 2 + kSideways.second / 1.5 + kSideways.third / 1.25 + diffuse);
+  const double expected = (1 - kept) * sunSource(kSideways, 0, ball()) + kept * behind;
   EXPECT_NEAR(j.sun, expected, 1e-8);
   EXPECT_TRUE(j.converged);
 }
@@ -104,10 +109,17 @@ TEST(CloudMarch, LightModelIsTheSharedOne) {
   for (double c = -1; c <= 1; c += 0.125) {
     const CloudPhases own = cloudPhases(c);
     const shared::CloudPhases theirs = shared::cloudPhases(float(c));
-    for (double e = 0; e < 0.9999; e += 0.0303) {
-      const double value = sunSource(own, e);
-      EXPECT_NEAR(double(shared::sunSource(theirs, float(e))), value, 2e-6 * value + 1e-7) << c << " " << e;  // floats
-    }
+    for (double tau = 0; tau < 150; tau = 1.5 * tau + 0.1)
+      for (const double sunChord : {0.0, 0.3, 5.0, 300.0})
+        for (const double upChord : {0.0, 0.2, 20.0})
+          for (const double muSun : {-0.4, 0.1, 1.0}) {
+            const CloudSlab slab = cloudSlab(tau + sunChord, upChord, muSun, 0.7, c);
+            const shared::CloudSlab same = shared::cloudSlab(float(tau + sunChord), float(upChord), float(muSun), 0.7f, float(c));
+            const double value = sunSource(own, tau, slab), open = openShare(tau, slab);
+            // Floats: of a thick cloud's far side little is left of what is subtracted, a few roundings of a depth of 100.
+            EXPECT_NEAR(double(shared::sunSource(theirs, float(tau), same)), value, 2e-6 * value + 2e-6) << c << " " << tau;
+            EXPECT_NEAR(double(shared::openShare(float(tau), same)), open, 2e-6);
+          }
   }
   EXPECT_NEAR(double(shared::skySource(0.3f)), skySource(0.3), 1e-7);
   EXPECT_NEAR(double(shared::groundSource(0.9f, 0.3f)), groundSource(0.9, 0.3), 1e-7);
@@ -133,6 +145,9 @@ TreeData smallTree() {
     tree.bricks[0][i] = std::uint16_t(random() % 4 == 0 ? 0 : random() & 0xFFFF);
     tree.bricks[0][i + 1] = std::uint16_t(random() & 0xFFFF);
   }
+  tree.chords.resize(10);
+  for (auto& corners : tree.chords)
+    for (auto& chord : corners) chord = {random() & 0xFFFF, random() & 0xFFFF};
   tree.nodes.resize(16);
   tree.nodes[0] = {shared::packWord(1, 31, 0), 8};
   for (std::uint32_t i = 0; i < 8; ++i)
@@ -151,6 +166,15 @@ glm::dvec2 trilinear(const TreeField& field, std::uint32_t brick, glm::dvec3 inN
     const glm::uvec3 bit{i & 1, i >> 1 & 1, i >> 2};
     const glm::dvec3 f = c - glm::floor(c), w = glm::mix(1.0 - f, f, glm::dvec3(bit));
     sum += field.texel(brick, glm::uvec3(c) + bit) * (w.x * w.y * w.z);
+  }
+  return sum;
+}
+
+glm::dvec2 chordsAt(const TreeData& tree, std::uint32_t brick, glm::dvec3 inNode) {
+  glm::dvec2 sum{};
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const glm::dvec3 w = glm::mix(1.0 - inNode, inNode, glm::dvec3(i & 1, i >> 1 & 1, i >> 2));
+    sum += glm::dvec2(tree.chords[brick][i]) / 65535.0 * (w.x * w.y * w.z);
   }
   return sum;
 }
@@ -181,9 +205,13 @@ TEST(CloudMarch, TreeAgreesWithPlainSteps) {
       const double r = 1.3f * 2200 / t / 2;  // 1 at the end of the children's reach
       const double parent = std::clamp((1 - 0.875 * r) / 0.125, 0.0, 1.0);
       const double a = child.x * (1 - parent), b = root.x * parent;
-      const double encoded = a + b > 0 ? (a * child.y + b * root.y) / (a + b) : 0;
+      const double share = a + b > 0 ? b / (a + b) : 0, encoded = glm::mix(child.y, root.y, share);
+      const glm::dvec2 chord = glm::mix(chordsAt(tree, 2 + octant, childAt), chordsAt(tree, 1, at), share);
+      const glm::dvec3 up = glm::normalize(from + dir * t);
+      const CloudSlab slab = cloudSlab(decodeDepth(chord.x), decodeDepth(chord.y), glm::dot(up, field.towardsSun()), glm::dot(up, dir),
+                                       glm::dot(dir, field.towardsSun()));
       const double kept = light * std::exp(-(a + b) * 0.004f * dt), gain = light - kept;
-      sun += gain * sunSource(phases, encoded), open += gain * skyShare(encoded), weighted += gain * t;
+      sun += gain * sunSource(phases, decodeDepth(encoded), slab), open += gain * openShare(decodeDepth(encoded), slab), weighted += gain * t;
       light = kept;
     }
     thick += light < 0.5;

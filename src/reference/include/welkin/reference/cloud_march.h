@@ -11,7 +11,8 @@ namespace welkin::reference {
 
 struct CloudSample {
   double extinction_per_m = 0;
-  double encodedDepth = 0;  // towards the sun, as bricks store it
+  double encodedDepth = 0;           // towards the sun, as bricks store it
+  double sunChord = 0, upChord = 0;  // of the whole lines along the sun's direction and upright, as bricks store them
 };
 
 // A field of cloud along one ray, cut into stretches in which it is smooth. Distances in metres from where the ray was begun.

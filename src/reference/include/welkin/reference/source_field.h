@@ -32,7 +32,7 @@ class SourceWalk {
   // The same by nodes alone, as large as their bounds are tight enough to draw collisions from.
   Piece enterNode(double t, double end);
   // Another ray through the same source: what is known of nodes stays.
-  void restart(glm::dvec3 start_planet, glm::dvec3 direction) { start_ = start_planet, direction_ = direction; }
+  void restart(glm::dvec3 start_planet, glm::dvec3 direction);
   double density(double t) const;  // 1/m
 
  private:
@@ -59,10 +59,13 @@ class SourceField final : public CloudField {
   std::uint64_t contentHash() const override;
   // Optical depth from a point towards the sun, at most kOpaqueDepth, which it is behind the planet too.
   double sunDepth(glm::dvec3 position_planet) const;
+  // Of the whole lines through a point, along the sun's direction and upright: farther away from the sun than kChordReach_m nothing counts.
+  glm::dvec2 chords(glm::dvec3 position_planet, double sunDepth) const;
   // Optical depth of a ray up to where it leaves the clouds, meets the ground, or to a distance.
   double opticalDepth(const CameraRay& ray, double most_m) const;
 
  private:
+  double halfChord(glm::dvec3 position_planet, glm::dvec3 direction) const;
   double depthWithin(SourceWalk& walk, Stretch stretch, double most) const;
 
   const DensitySource& source_;
@@ -70,6 +73,6 @@ class SourceField final : public CloudField {
   SourceSettings settings_;
 };
 
-inline constexpr double kOpaqueDepth = 200;  // as the light pass has it
+inline constexpr double kOpaqueDepth = 200, kChordReach_m = 32e3;  // as the light pass has them
 
 }  // namespace welkin::reference

@@ -28,6 +28,8 @@ class TreeField final : public CloudField {
   Node lookUp(glm::uvec3 p, std::uint32_t level) const;
   // Density, as a share of the greatest, and light of a brick's corner sample (0..7 an axis).
   glm::dvec2 texel(std::uint32_t brick, glm::uvec3 i) const;
+  // Chords as stored at `cells` of a brick, 0..7 an axis: trilinear between its corners.
+  glm::dvec2 chords(std::uint32_t brick, glm::dvec3 cells) const;
 
   const TreeData& data() const { return data_; }
   const DetailRule& detail() const { return detail_; }

@@ -8,6 +8,7 @@
 #define WK_BRICK_JOBS_BINDING 2
 #define WK_BRICK_RESULTS_BINDING 3
 #define WK_COUNTERS_BINDING 4
+#define WK_CHORDS_BINDING 3         // of light, which has no results
 #define WK_MAP_JOBS_BINDING 5
 #define WK_EXPOSURE_BINDING 5      // after the maps, which bind their jobs anew each time: GL promises eight, 0 to 7
 #define WK_PIXELS_BINDING 6
@@ -17,6 +18,7 @@
 // texture units
 #define WK_BRICK_UNIT 0            // 0..7: brick textures
 #define WK_TREE_UNIT 8             // octree maps and nodes, buffer texture, RG32UI (tree_block.glsl.h: mapEntry)
+#define WK_CHORDS_UNIT 20          // clouds' chords at corners of bricks, buffer texture, RGBA32UI, two texels a brick (lib/tree.glsl)
 #define WK_COVER_UNIT 9            // cover, 2-D array of 6 faces, R16
 #define WK_SKY_TRANSMITTANCE_UNIT 10
 #define WK_SKY_IRRADIANCE_UNIT 11

@@ -1,7 +1,7 @@
 #pragma once
-// How sun and sky light a point inside a cloud, from the sun's optical depth alone. Named, so that a path tracer can be held
-// against each. All are per unit of sun irradiance or of sky irradiance, in 1/sr: multiplied by extinction and path length they give
-// radiance (droplets do not absorb visible light: albedo 1).
+// How sun and sky light a point inside a cloud, from four numbers: optical depth towards the sun; of the whole straight lines through the point,
+// along the sun's direction and upright (the cloud's chords); and the sun's height. Held against a path tracer in docs/reference.md. All are per
+// unit of irradiance, in 1/sr: multiplied by extinction and path length they give radiance (droplets do not absorb visible light: albedo 1).
 #include "welkin/shared/phase.glsl.h"
 #include "welkin/shared/sun_depth.glsl.h"
 WK_BEGIN
@@ -11,38 +11,60 @@ WK_BEGIN
 WK_CONST float kForwardG = F(0.85);
 WK_CONST float kBackwardG = F(-0.3);
 WK_CONST float kForwardShare = F(0.87);
+WK_CONST float kAsymmetry = F(0.7005);
+WK_CONST float kSimilar = F(0.2995);  // 1 - asymmetry: light that spreads takes an optical depth for that times it (van de Hulst 1980)
+WK_CONST float kBroadened = F(0.7);   // asymmetry of light after some forward scatterings, as a share; the one number that is fitted
 WK_FN float cloudPhase(float cosTheta, float sharpness) {
   return mix(phaseHenyeyGreenstein(cosTheta, kBackwardG * sharpness), phaseHenyeyGreenstein(cosTheta, kForwardG * sharpness), kForwardShare);
 }
 
-// Phase values of three scattering octaves (Wrenninge et al. 2013, "Oz: the great and volumetric"): each is broader and
-// reaches deeper than the one before. Constant along a ray.
+// Of light scattered once, and some times forwards. Constant along a ray.
 struct CloudPhases {
   float single;
-  float second;
-  float third;
+  float broad;
 };
-WK_FN CloudPhases cloudPhases(float cosTheta) {
-  return WK_NEW(CloudPhases, cloudPhase(cosTheta, F(1.0)), cloudPhase(cosTheta, F(0.6)), cloudPhase(cosTheta, F(0.35)));
+WK_FN CloudPhases cloudPhases(float cosTheta) { return WK_NEW(CloudPhases, cloudPhase(cosTheta, F(1.0)), cloudPhase(cosTheta, kBroadened)); }
+
+// A point's surroundings, taken as a slab. Its normal lies between the sun's direction (as thick upright as along the sun's line, or thicker:
+// a ball, a tower lit from its side) and up (thicker along the sun's line by the sun's slant: a deck).
+struct CloudSlab {
+  float slant;   // cosine between normal and sun
+  float depth;   // across it, times kSimilar
+  float normal;  // cosine between normal and the view ray's direction
+};
+WK_CONST float kLeastSlant = F(0.05);
+// Depths of both chords; cosines of the sun's and the ray's zenith angles, and between both.
+WK_FN CloudSlab cloudSlab(float sunChord, float upChord, float muSun, float muView, float cosTheta) {
+  float deck = clamp(muSun, kLeastSlant, F(1.0));
+  float slant = clamp(upChord / max(sunChord, F(1.0e-12)), deck, F(1.0));
+  float ball = (slant - deck) / max(F(1.0) - deck, F(1.0e-12));
+  return WK_NEW(CloudSlab, slant, kSimilar * slant * sunChord, mix(muView, cosTheta, ball));
 }
 
-// Share of diffuse light that arrives at a sun depth: diffusion decays as 1 / (1 + 0.75 (1 - g) tau), not exponentially (two-stream
-// solution), so a thick cloud is grey underneath, not black. With g = 0.73 that is 1 / (1 + tau / 5), one minus the stored form.
-WK_FN float skyShare(float encoded) { return F(1.0) - encoded; }
-
-// In-scatter of sunlight at a point whose sun depth is stored as `encoded`. The diffuse part builds up over the first optical depths.
-WK_CONST float kDiffuseGain = F(2.2);
-WK_FN float sunSource(CloudPhases phases, float encoded) {
-  float quarter = exp2(decodeDepth(encoded) * F(-0.36067376));  // exp(-tau / 4)
-  float half_ = quarter * quarter;
-  float diffuse = kDiffuseGain / (F(4.0) * kPi) * (F(1.0) - F(0.8) * half_) * skyShare(encoded);
-  return phases.single * half_ * half_ + phases.second * half_ + phases.third * quarter + diffuse;
+// Of diffuse light from above what arrives at this sun depth; of that from below it is what is left to 1. Eddington's approximation of a slab
+// that absorbs nothing: linear in depth, half at both faces of a thin one, from 1 to 0 in a thick one.
+WK_FN float openShare(float tau, CloudSlab slab) {
+  float below = max(slab.depth - kSimilar * slab.slant * tau, F(0.0));
+  return (F(0.5) + F(0.75) * below) / (F(1.0) + F(0.75) * slab.depth);
 }
 
-// Light of the sky arrives as diffuse light does. Light from the ground reaches what the sky does not: from a quarter at the top to all of
-// it far down. A ray sums opacity, and opacity times share; both sources follow.
-WK_FN float skySource(float openOpacity) { return openOpacity * (F(0.5) / kPi); }
-WK_FN float groundSource(float opacity, float openOpacity) { return (opacity - F(0.75) * openOpacity) * (F(0.5) / kPi); }
+// In-scatter of sunlight: scattered once; the beam that was scattered forwards only; and what spreads, by Eddington's approximation of a slab lit
+// by the beam exp(-kSimilar tau): mean radiance J, and flux across the slab, of which light that goes along it has more.
+//   d flux / d t = beam,  dJ / dt = -3 flux / (4 pi),  no diffuse light enters a face: pi J = |flux| / 2 there
+WK_FN float sunSource(CloudPhases phases, float tau, CloudSlab slab) {
+  float direct = exp2(tau * F(-1.44269504));
+  float beam = exp2(tau * (F(-1.44269504) * kSimilar));
+  float through = exp2(slab.depth / slab.slant * F(-1.44269504));
+  float open = openShare(tau, slab), steep = F(0.75) * slab.slant;
+  float mean = (F(0.5) + steep) * open - steep * beam - (F(0.5) - steep) * through * (F(1.0) - open);
+  float net = (F(0.5) + steep + (F(0.5) - steep) * through) / (F(1.0) + F(0.75) * slab.depth) - beam;
+  float diffuse = max(mean + F(0.75) * kAsymmetry * net * slab.normal, F(0.0)) * slab.slant / kPi;
+  return phases.single * direct + phases.broad * (beam - direct) + diffuse;
+}
+
+// Diffuse light from above and from below. A ray sums opacity, and opacity times openShare; both sources follow.
+WK_FN float skySource(float openOpacity) { return openOpacity / kPi; }
+WK_FN float groundSource(float opacity, float openOpacity) { return (opacity - openOpacity) / kPi; }
 
 // Share of the sun's irradiance that reaches the ground through cloud of this optical depth: the direct beam, and half of what a
 // conservative two-stream cloud lets through (1 / (1 + 0.1 tau)); the other half falls outside the shadow.
