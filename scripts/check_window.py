@@ -17,6 +17,7 @@ import sys
 import time
 
 import checks
+from check_window_desktop import desktop
 from check_window_memory import budget_mib, given_back, memory
 from check_window_recording import recording
 from check_window_time import day
@@ -505,7 +506,8 @@ def monkey(c):
     c.end(w, "monkey")
 
 
-GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, memory, day, drops, resizes, closes, refuses, recording, places, converged, monkey)}
+GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, memory, day, drops, resizes, desktop, closes, refuses, recording, places,
+                                   converged, monkey)}
 
 
 def main():
