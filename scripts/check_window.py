@@ -266,6 +266,10 @@ def debug(c):
            said is not None and len(shots) == 1 and named)
     _, share = differing("picture", "none", lambda share: share < 0.01)
     c.line("the picture again: share that differs", share, "below 0.01", share < 0.01)
+    if len(shots) == 1:
+        dropped = w.drop(shots[0]) == 0 and w.wait_for(lambda s: s["debug"]["view"] == view and not s["loading"])
+        told = bool(dropped) and any("restored" in text and f"debug view {view}" in text for text in w.logged())
+        c.line("the picture of a debug view, dropped", dropped["debug"]["view"] if dropped else "none", f"{view}, and the window says so", told)
     state = w.fresh()
     if not c.quick:
         c.line("longest frame while views are chosen, ms", state["worst_frame_ms"], "at most 100", state["worst_frame_ms"] <= 100)
