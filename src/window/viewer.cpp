@@ -121,6 +121,7 @@ class Viewer {
       presenter_.show(*model_.painted->canvas, model_.window, falseColours(model_.painted->debug) ? GL_NEAREST : GL_LINEAR);
     else
       presenter_.clear(model_.window);
+    if (counts_.frames == 0) presenter_.prepare(model_.window), presenter_.clear(model_.window);
     if (model_.software) glFinish();  // so that the profiler tells the parts apart
     const double stretched_ms = gpu::wall_ms();
     interface_.begin();
