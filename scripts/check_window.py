@@ -481,7 +481,7 @@ def monkey(c):
     w = c.window(*SMALL, size="960x600")
     dice = random.Random(seed)
     end = time.time() + seconds
-    first, memories, budget = w.fresh(), [w.memory_mib()], 0
+    first, memories, budget = w.fresh(), [w.memory_mib()] if w.alive() else [], 0
     while time.time() < end and w.alive():
         act = dice.random()
         x, y = dice.randint(0, 959), dice.randint(0, 599)

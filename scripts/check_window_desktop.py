@@ -15,8 +15,9 @@ MODE = ["1024x768", "63.50", "1024", "1072", "1176", "1328", "768", "771", "775"
 
 
 class Desktop(Screen):
-    def __init__(self, *size, resources=None):
-        super().__init__(*size)
+    def __init__(self, width=1280, height=800, resources=None):
+        # Resources stay when xrdb ends. Not for other windows: GLFW 3.3 ends in an assertion where a manager left its marks and is gone.
+        super().__init__(width, height, ["-noreset"])
         self.environment = dict(os.environ, DISPLAY=self.display)
         settings = os.path.join(self.folder, "jwmrc")
         with open(settings, "w", encoding="utf-8") as f:

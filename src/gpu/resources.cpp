@@ -14,8 +14,8 @@ Error overBudget(const MemoryAccount& account, const std::string& what, std::siz
                            double(account.used()) / 0x1p20, double(account.budget()) / 0x1p20)};
 }
 
-// Mesa holds a lock over the textures of all contexts that share them while software clears one, 50 ms for 128 MiB, and a window's frame waits
-// for it. So large ones are cleared piece by piece, with time between for another thread to take the lock: it is not a fair one.
+// Mesa holds a lock over the textures of all contexts that share them while software clears one, 50 ms for 128 MiB, and a window's frame
+// waits for it. So large ones are cleared piece by piece, with time between for another thread to take the lock: it is not a fair one.
 void clearSlices(GLuint texture, const TextureSpec& spec, std::size_t bytes, GLenum format, GLenum type) {
   constexpr std::size_t kPiece = 8 << 20;
   constexpr std::chrono::microseconds kPause{100};

@@ -37,7 +37,7 @@ AlbedoPicture halved(const AlbedoPicture& in) {
 }
 
 // As glGenerateTextureMipmap does. That one holds a lock of Mesa over all textures, and with it the window's next frame, while software
-// translates programs for it: 0.2 s. Software draws the scenes of all contexts one after the other: in bands, so that a window's gets its turn.
+// translates programs for it: 0.2 s. In bands, as software draws one context's pictures after another's, and a window's is to get its turn.
 constexpr int kBandRows = 64;
 void makeMipmaps(GLuint texture, int levels, int width, int height) {
   GLuint frames[2];

@@ -1,6 +1,5 @@
 // The byte budget, and that what a scene leaves out costs nothing.
 #include <gmock/gmock.h>
-
 #include <unistd.h>
 
 #include <fstream>
