@@ -17,6 +17,8 @@ import sys
 import time
 
 import checks
+from check_window_desktop import desktop
+from check_window_memory import budget_mib, given_back, memory
 from check_window_recording import recording
 from check_window_time import day
 from window_driver import PANELS, PATIENCE_S, Screen, Window, missing, write_png
@@ -193,13 +195,13 @@ def changes(c):
         print(f"      nothing was made: {', '.join(lacking)}")
     c.line(f"renderers made for {len(presets)} presets", len(presets) - len(lacking), f"{len(presets)}", not lacking)
     if not c.quick:  # once both painters have had the larger budget, as much again each time
-        memory = []
+        after = []
         for _ in range(4):
             for preset in ("medium", "as loaded"):
                 choose(preset)
                 time.sleep(2.5)  # the old one ends beside the window
-            memory.append(w.memory_mib())
-        ratio = memory[3] / memory[2]
+            after.append(w.memory_mib())
+        ratio = after[3] / after[2]
         c.line("memory after the fourth change there and back over that after the third", ratio, "below 1.05", ratio < 1.05)
     for label in ("skip empty space", "reprojection", "skip empty space", "reprojection"):
         x0, y0, _, y1 = w.field(label)
@@ -264,6 +266,10 @@ def debug(c):
            said is not None and len(shots) == 1 and named)
     _, share = differing("picture", "none", lambda share: share < 0.01)
     c.line("the picture again: share that differs", share, "below 0.01", share < 0.01)
+    if len(shots) == 1:
+        dropped = w.drop(shots[0]) == 0 and w.wait_for(lambda s: s["debug"]["view"] == view and not s["loading"])
+        told = bool(dropped) and any("restored" in text and f"debug view {view}" in text for text in w.logged())
+        c.line("the picture of a debug view, dropped", dropped["debug"]["view"] if dropped else "none", f"{view}, and the window says so", told)
     state = w.fresh()
     if not c.quick:
         c.line("longest frame while views are chosen, ms", state["worst_frame_ms"], "at most 100", state["worst_frame_ms"] <= 100)
@@ -475,7 +481,7 @@ def monkey(c):
     w = c.window(*SMALL, size="960x600")
     dice = random.Random(seed)
     end = time.time() + seconds
-    memory, budget = [], 0
+    first, memories, budget = w.fresh(), [w.memory_mib()] if w.alive() else [], 0
     while time.time() < end and w.alive():
         act = dice.random()
         x, y = dice.randint(0, 959), dice.randint(0, 599)
@@ -491,28 +497,21 @@ def monkey(c):
         else:
             w.resize(dice.randint(100, 1280), dice.randint(100, 800))
         if w.alive():
-            memory.append(w.memory_mib())
-            now = w.state() or {"bytes_budget": 0, "quality": {"budget_bytes": 0}}
-            budget = max(budget, now["bytes_budget"], now["quality"]["budget_bytes"])
+            memories.append(w.memory_mib())
+            budget = max(budget, budget_mib(w.state() or first))
     w.key("Escape")  # a benchmark that it began
     state = w.wait_for(lambda s: s["flight"]["running"] == "")
     c.line("a flight that it began is stopped by Escape", state is not None, "stopped", state is not None)
-    w.wait_for(lambda s: not s["loading"])  # a renderer in the making may have been asked for with gigabytes
-    w.frames(100)
-    if w.alive():
-        memory.append(w.memory_mib())
-        print(f"      at the start {memory[0]:.0f} MiB, at most {max(memory):.0f}, greatest budget {budget / 2**20:.0f}")
     c.line(f"alive after {seconds} s of random input (seed {seed})", w.alive(), "alive", w.alive())
-    if memory:
-        # A second renderer may be there, of a benchmark or of a change, and a context keeps its programs and pages: a budget each at most, of the
-        # greatest that was asked for on the way.
-        limit = 1.2 * memory[len(memory) // 2] + 2 * budget / 2**20
-        c.line("memory in the end, MiB", memory[-1], f"below {limit:.0f}: 1.2 times that in the middle and two budgets", memory[-1] < limit)
+    if w.alive():
+        given_back(c, "memory in the end, MiB", w, memories[0], first)
+        print(f"      at most {max(memories):.0f} MiB, greatest budget {budget:.0f}")
     w.capture(os.path.join(c.out, "monkey.png"))
     c.end(w, "monkey")
 
 
-GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, day, drops, resizes, closes, refuses, recording, places, converged, monkey)}
+GROUPS = {f.__name__: f for f in (start, fly, panels, debug, changes, memory, day, drops, resizes, desktop, closes, refuses, recording, places,
+                                   converged, monkey)}
 
 
 def main():

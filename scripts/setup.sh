@@ -9,7 +9,7 @@ packages=(
   libegl-dev libopengl-dev libgl-dev libegl-mesa0 libgl1-mesa-dri   # OpenGL without a window, in software if need be
   libglfw3-dev libimgui-dev libx11-dev fonts-dejavu-core        # the window
   libgtest-dev libgmock-dev                                     # tests
-  xvfb xauth xdotool                                            # tests of the window
+  xvfb xauth xdotool jwm x11-xserver-utils x11-utils            # tests of the window
   python3-matplotlib                                            # the plot of a flight
 )
 needed=true

@@ -25,10 +25,10 @@ def missing():
 class Screen:
     """An X server without a monitor; its picture lies in a file that anybody can read."""
 
-    def __init__(self, width=1280, height=800):
+    def __init__(self, width=1280, height=800, more=()):
         self.folder = tempfile.mkdtemp(prefix="welkin-screen-")
         read, write = os.pipe()
-        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", self.folder, "-nolisten", "tcp"]
+        command = ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", self.folder, "-nolisten", "tcp", *more]
         self.server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as pipe:

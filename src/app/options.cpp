@@ -130,6 +130,7 @@ Result<Start> loadStart(const std::filesystem::path& file, const std::string& vi
     for (const auto& note : start.notes) log::warn("{}", note);
     start.time_s = state->time_s;
     start.exposure_ev = state->exposure_ev;
+    start.debug = state->debug;
     if (viewName.empty()) return start;
   } else {
     auto scene = loadScene(file);

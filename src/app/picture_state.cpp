@@ -81,10 +81,11 @@ class Reader {
   std::string picture_;
 };
 
-// None for a name of another version: what the picture shows was drawn from scene and view all the same.
-DebugView debugViewNamed(const std::string& name) {
+// Nothing for a name of another version: what the picture shows was drawn from scene and view all the same.
+std::optional<DebugView> debugViewNamed(const std::string& name) {
   const auto found = std::find(kDebugViewNames.begin(), kDebugViewNames.end(), name);
-  return found == kDebugViewNames.end() ? DebugView::None : DebugView(found - kDebugViewNames.begin());
+  if (found == kDebugViewNames.end()) return {};
+  return DebugView(found - kDebugViewNames.begin());
 }
 
 }  // namespace
@@ -137,7 +138,10 @@ Result<PictureState> stateFromTexts(const Texts& texts, const fs::path& picture)
     if (there(in.has("welkin:time_s"), "welkin:time_s", "scene time 0")) s.time_s = in.number("welkin:time_s", kGreatestTime_s);
     if (there(in.has("welkin:build"), "welkin:build", "what made it is not known")) s.build = in.text("welkin:build");
     if (there(in.has("welkin:converged"), "welkin:converged", "taken as not converged")) s.converged = in.text("welkin:converged") == "1";
-    if (in.has("welkin:debug")) s.debug = debugViewNamed(in.text("welkin:debug"));
+    if (in.has("welkin:debug")) {
+      const auto debug = debugViewNamed(in.text("welkin:debug"));
+      if (there(debug.has_value(), "welkin:debug: a debug view that this version knows", "the picture without one")) s.debug = *debug;
+    }
     if (!there(in.has("welkin:data"), "welkin:data", "data files are not checked")) {
       for (const auto& file : dataFiles(s.scene)) s.data[file] = "";
       return s;

@@ -142,6 +142,16 @@ Context::~Context() {
   eglDestroyContext(display_, context_);
 }
 
+void Context::letGo() {
+  const char* nothing = "#version 450 core\nlayout(local_size_x = 1) in;\nvoid main() {}\n";
+  const GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 1, &nothing);
+  glUseProgram(program);
+  glDispatchCompute(1, 1, 1);
+  glUseProgram(0);
+  glDeleteProgram(program);
+  glFinish();
+}
+
 void Context::countMessage(std::string message) {
   ++debugMessages_;
   if (messages_.size() >= kKeptMessages) return;

@@ -2,12 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
 namespace welkin::gpu {
 namespace {
 
 Error overBudget(const MemoryAccount& account, const std::string& what, std::size_t bytes) {
   return Error{fmt::format("memory: {} needs {:.1f} MiB, but {:.1f} of the budget of {:.1f} MiB are in use", what, double(bytes) / 0x1p20,
                            double(account.used()) / 0x1p20, double(account.budget()) / 0x1p20)};
+}
+
+// Mesa holds a lock over the textures of all contexts that share them while software clears one, 50 ms for 128 MiB, and a window's frame
+// waits for it. So large ones are cleared piece by piece, with time between for another thread to take the lock: it is not a fair one.
+void clearSlices(GLuint texture, const TextureSpec& spec, std::size_t bytes, GLenum format, GLenum type) {
+  constexpr std::size_t kPiece = 8 << 20;
+  constexpr std::chrono::microseconds kPause{100};
+  const int pieces = std::clamp(int(bytes / kPiece), 1, spec.depth);
+  for (int i = 0; i < pieces; ++i) {
+    if (i > 0) std::this_thread::sleep_for(kPause);
+    const int z = int(std::int64_t(spec.depth) * i / pieces), end = int(std::int64_t(spec.depth) * (i + 1) / pieces);
+    glClearTexSubImage(texture, 0, 0, 0, z, spec.width, spec.height, end - z, format, type, nullptr);
+  }
 }
 
 }  // namespace
@@ -77,7 +94,7 @@ Result<Texture> Texture::create(MemoryAccount& account, std::string what, const 
   glTextureParameteri(texture.id_, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(spec.filter));
   for (GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) glTextureParameteri(texture.id_, axis, static_cast<GLint>(spec.wrap));
   const bool integer = spec.format == GL_R8UI || spec.format == GL_R16UI || spec.format == GL_R32UI || spec.format == GL_RG32UI || spec.format == GL_RGBA32UI;
-  glClearTexImage(texture.id_, 0, integer ? GL_RED_INTEGER : GL_RED, integer ? GL_UNSIGNED_INT : GL_FLOAT, nullptr);
+  clearSlices(texture.id_, spec, bytes, integer ? GL_RED_INTEGER : GL_RED, integer ? GL_UNSIGNED_INT : GL_FLOAT);
   return texture;
 }
 

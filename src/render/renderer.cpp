@@ -382,7 +382,10 @@ FrameStats Renderer::Impl::report(FrameStats stats) const {
 }
 
 Renderer::Renderer() = default;
-Renderer::~Renderer() = default;
+Renderer::~Renderer() {
+  impl_.reset();
+  gpu::Context::letGo();
+}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Context& context, const Scene& scene, const RenderSettings& settings) {
   auto renderer = std::unique_ptr<Renderer>(new Renderer);

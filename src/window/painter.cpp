@@ -1,5 +1,9 @@
 #include "painter.h"
 
+#ifdef __linux__
+#include <malloc.h>
+#endif
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <glad/gl.h>
@@ -12,6 +16,13 @@ namespace welkin::window {
 namespace {
 
 constexpr int kFirstFrames = 8;  // unseen: a level of the tree each, so that the first picture has its clouds
+
+// The heaps of many threads keep the pages of what was freed: 100 MiB after a renderer of 2 GiB. 5 to 9 ms.
+void trimHeap() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 }  // namespace
 
@@ -51,7 +62,7 @@ void Painter::make(const Scene& scene, const RenderSettings& settings, const Vie
       return !stop_ && wanted_ == number;
     };
     if (!wanted()) return;
-    renderer_.reset();
+    dropRenderer();
     auto made = Renderer::create(*context_, scene, settings);
     if (made) {
       renderer_ = std::move(*made);
@@ -75,9 +86,15 @@ std::optional<Result<void>> Painter::made() {
 
 void Painter::end() {
   run([this] {
-    renderer_.reset();
+    dropRenderer();
     canvases_ = {};
   });
+}
+
+void Painter::dropRenderer() {
+  if (!renderer_) return;
+  renderer_.reset();
+  trimHeap();
 }
 
 void Painter::draw(Order order) {

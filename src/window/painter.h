@@ -79,6 +79,7 @@ class Painter {
  private:
   void run(std::function<void()> job);
   void work();
+  void dropRenderer();
   Painted paint(const Order& order);
   void resize(app::Size size, Painted& painted);
   void setDebugView(DebugView view, Painted& painted);

@@ -5,6 +5,16 @@
 
 namespace welkin::window {
 
+void Presenter::prepare(app::Size window) const {
+  GLuint picture = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &picture);
+  glTextureStorage2D(picture, 1, GL_RGBA8, 1, 1);
+  glNamedFramebufferTexture(frame_, GL_COLOR_ATTACHMENT0, picture, 0);
+  glBlitNamedFramebuffer(frame_, 0, 0, 0, 1, 1, 0, window.height, window.width, 0, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glNamedFramebufferTexture(frame_, GL_COLOR_ATTACHMENT0, 0, 0);
+  glDeleteTextures(1, &picture);
+}
+
 void Presenter::show(Canvas& canvas, app::Size window, GLenum between) const {
   const gpu::Texture& picture = canvas.texture;
   glNamedFramebufferTexture(frame_, GL_COLOR_ATTACHMENT0, picture.id(), 0);

@@ -80,6 +80,7 @@ class Viewer {
   void begin(app::Start&& start) {
     model_.viewName = start.viewName;
     model_.time_s = start.time_s;
+    model_.debug = start.debug.value_or(model_.debug);  // a scene or a path leaves it as it is
     app::apply(options_.common, start.scene);
     app::apply(options_.common, start.view);
     model_.start(std::move(start.scene), start.view);
@@ -120,6 +121,7 @@ class Viewer {
       presenter_.show(*model_.painted->canvas, model_.window, falseColours(model_.painted->debug) ? GL_NEAREST : GL_LINEAR);
     else
       presenter_.clear(model_.window);
+    if (counts_.frames == 0) presenter_.prepare(model_.window), presenter_.clear(model_.window);
     if (model_.software) glFinish();  // so that the profiler tells the parts apart
     const double stretched_ms = gpu::wall_ms();
     interface_.begin();
@@ -281,10 +283,13 @@ class Viewer {
       return model_.say("files are loaded once the flight that is recorded or replayed has ended", true);
     model_.deck.stop();
     const auto notes = restored.start.notes;
+    const DebugView debug = restored.start.debug.value_or(DebugView::None);
     begin(std::move(restored.start));
     const bool flight = restored.path.has_value();
     if (flight) loadFlight(model_, std::move(*restored.path));
-    model_.say(flight ? "a recorded flight of " + oneLine(model_.scene.name, 60) : "restored " + oneLine(model_.scene.name, 60));
+    std::string said = (flight ? "a recorded flight of " : "restored ") + oneLine(model_.scene.name, 60);
+    if (debug != DebugView::None) said += fmt::format(", debug view {}", kDebugViewNames[std::size_t(debug)]);
+    model_.say(said);
     for (const auto& note : notes) model_.say(note, true);
   }
 

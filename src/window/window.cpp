@@ -29,6 +29,8 @@ void sayWhatIsNeeded() {
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
+  // Full screen keeps the monitor's mode, so that another window beside it, or a change of monitors, is no reason to vanish.
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
 }
 
 std::vector<Area> areas() {

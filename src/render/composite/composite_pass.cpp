@@ -36,6 +36,30 @@ AlbedoPicture halved(const AlbedoPicture& in) {
   return out;
 }
 
+// As glGenerateTextureMipmap does. That one holds a lock of Mesa over all textures, and with it the window's next frame, while software
+// translates programs for it: 0.2 s. In bands, as software draws one context's pictures after another's, and a window's is to get its turn.
+constexpr int kBandRows = 64;
+void makeMipmaps(GLuint texture, int levels, int width, int height) {
+  GLuint frames[2];
+  glCreateFramebuffers(2, frames);
+  glEnable(GL_FRAMEBUFFER_SRGB);  // means of light
+  for (int level = 1; level < levels; ++level) {
+    const int nextWidth = std::max(width / 2, 1), nextHeight = std::max(height / 2, 1);
+    glNamedFramebufferTexture(frames[0], GL_COLOR_ATTACHMENT0, texture, level - 1);
+    glNamedFramebufferTexture(frames[1], GL_COLOR_ATTACHMENT0, texture, level);
+    const int bands = height == 2 * nextHeight ? (nextHeight + kBandRows - 1) / kBandRows : 1;  // a pixel's four are in its band
+    for (int i = 0; i < bands; ++i) {
+      const int from = nextHeight * i / bands, to = nextHeight * (i + 1) / bands;
+      const int fromAbove = bands > 1 ? 2 * from : 0, toAbove = bands > 1 ? 2 * to : height;
+      glBlitNamedFramebuffer(frames[0], frames[1], 0, fromAbove, width, toAbove, 0, from, nextWidth, to, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+      glFinish();
+    }
+    width = nextWidth, height = nextHeight;
+  }
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glDeleteFramebuffers(2, frames);
+}
+
 Result<gpu::Program> composite(const CompositeParts& parts, bool albedoMap, ToneCurve curve, const gpu::Defines& more = {}) {
   const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
   gpu::Defines defines{{"OPT_CLOUDS", onOff(parts.clouds)}, {"OPT_AIR", onOff(parts.air)},       {"OPT_SUN", onOff(parts.sun)},
@@ -143,7 +167,7 @@ Result<void> CompositePass::loadAlbedo(gpu::MemoryAccount& account, AlbedoPictur
   const int levels = static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(picture.width, picture.height))));
   glTextureStorage2D(albedoMap_, levels, GL_SRGB8_ALPHA8, picture.width, picture.height);
   glTextureSubImage2D(albedoMap_, 0, 0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
-  glGenerateTextureMipmap(albedoMap_);
+  makeMipmaps(albedoMap_, levels, picture.width, picture.height);
   glTextureParameteri(albedoMap_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(albedoMap_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTextureParameteri(albedoMap_, GL_TEXTURE_WRAP_S, GL_REPEAT);

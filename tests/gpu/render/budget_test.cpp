@@ -1,6 +1,8 @@
 // The byte budget, and that what a scene leaves out costs nothing.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <set>
 
 #include "flights.h"
@@ -36,6 +38,27 @@ TEST_F(Budget, IsKeptInEveryFrameAndUsed) {
     for (const auto& [name, bytes] : renderer->memory().byName()) named += bytes;
     EXPECT_EQ(named, renderer->memory().used() + renderer->memory().frameTargets());
   }
+}
+
+double residentMiB() {
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0, resident = 0;
+  statm >> pages >> resident;
+  return resident * double(sysconf(_SC_PAGESIZE)) / double(kMiB);
+}
+
+// The pass of the debug view is the last one: a driver keeps what that was given.
+TEST_F(Budget, IsGivenBackWithTheRenderer) {
+  if (!context->device().software) GTEST_SKIP() << "the memory of a GPU is not the process'";
+  Scene scene = smallEarth();
+  scene.quality.budget_bytes = 512 * kMiB;
+  const double before = residentMiB();
+  auto renderer = makeRenderer(*context, scene, {.width = 96, .height = 54});
+  ASSERT_TRUE(renderer->setDebugView(DebugView::Steps).ok());
+  renderer->frame(sideways(0, 500));
+  EXPECT_GT(residentMiB(), before + 400);
+  renderer.reset();
+  EXPECT_LT(residentMiB(), before + 200) << "heaps keep pages, of the CPU's mirror for instance, which is a quarter at most";
 }
 
 TEST_F(Budget, TooLittleIsOneLineThatSaysHowMuchIsEnough) {

@@ -17,6 +17,7 @@
 namespace welkin::app {
 namespace {
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -104,11 +105,16 @@ TEST_F(Pictures, aDebugViewIsNamed) {
   auto back = stateFromTexts(texts, folder / "a.png");
   ASSERT_TRUE(back.ok()) << back.error().message;
   expectSame(*back, s);
+  const auto file = folder / "debug.png";
+  ASSERT_TRUE(writePng(file, image(), textsFromState(s, folder)).ok());
+  const auto start = loadStart(file, "");
+  ASSERT_TRUE(start.ok()) << start.error().message;
+  EXPECT_EQ(start->debug, DebugView::History) << "the window shows it again";
   texts.back().second = "a view of a later version";
   back = stateFromTexts(texts, folder / "a.png");
   ASSERT_TRUE(back.ok()) << back.error().message;
   expectSame(*back, state());
-  EXPECT_TRUE(back->notes.empty());
+  EXPECT_THAT(back->notes, ElementsAre(HasSubstr("welkin:debug")));
 }
 
 TEST_F(Pictures, exrKeepsPixelsAndState) {

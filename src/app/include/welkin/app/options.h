@@ -72,6 +72,7 @@ struct Start {
   Size size;
   double time_s = 0;
   std::optional<double> exposure_ev;  // of a picture
+  std::optional<DebugView> debug;     // that a picture shows; commands draw what their own option says
   std::vector<std::string> notes;     // of a picture: what it did not say; logged already
 };
 void apply(const CommonOptions& options, Start& start);  // but for the size

@@ -26,6 +26,9 @@ class Context {
   std::uint64_t debugMessages() const { return debugMessages_; }             // errors, undefined behaviour and warnings so far
   const std::vector<std::string>& firstMessages() const { return messages_; }
   void countMessage(std::string text);
+  // To be called, with it current, once large objects were deleted: a driver keeps what the last dispatch was given until the
+  // next one, with all of its memory. This one is given nothing.
+  static void letGo();
 
  private:
   Context() = default;
