@@ -43,7 +43,7 @@ uniform ivec2 u_size;
 uniform ivec2 u_offset;   // which pixel of each 4 x 4
 uniform int u_spacing;    // of PIXELS_ALL
 uniform vec3 u_sunIrradiance;
-uniform float u_groundAlbedo;
+uniform float u_groundAlbedo;  // where no table has the ground's light; else 0
 
 const float kBrightest = 65504.0;  // of a half float, which the history is made of; past it is infinity
 
@@ -55,13 +55,14 @@ CloudColours coloursAt(dvec3 position) {
   float r = float(length(position));
   float altitude = clamp(float(length(position) - double(tree.planetRadius_m)), 0.0, tree.cloudTop_m);
   float muSun = dot(vec3(position), tree.sunDir.xyz) / r;
+  vec3 ground = max(muSun, 0.0) * u_groundAlbedo * u_sunIrradiance;
 #if OPT_AIR
   AirLight sky = airSkyIrradiance(u_skyIrradiance, air, altitude, muSun);
-  return CloudColours(airSunTransmittance(u_skyTransmittance, air, altitude, muSun) * u_sunIrradiance, sky.fromAbove, sky.fromBelow);
+  return CloudColours(airSunTransmittance(u_skyTransmittance, air, altitude, muSun) * u_sunIrradiance, sky.fromAbove, sky.fromBelow + ground);
 #else
   float dip = sqrt(altitude * (2.0 * tree.planetRadius_m + altitude)) / r;  // sine of the horizon's dip
   float lit = muSun > -dip ? 1.0 : 0.0;
-  return CloudColours(lit * u_sunIrradiance, vec3(0.0), max(muSun, 0.0) * u_groundAlbedo * u_sunIrradiance);
+  return CloudColours(lit * u_sunIrradiance, vec3(0.0), ground);
 #endif
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "welkin/render/sky/sky_model.h"
 #include "welkin/shared/bindings.glsl.h"
 
 namespace welkin {
@@ -183,9 +184,10 @@ void CloudPasses::marchWhole(const Scene& scene, std::optional<double> seen_ev, 
 
 void CloudPasses::setLight(const gpu::Program& program, const Scene& scene) const {
   const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
-  const float albedo = float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3;
   program.set("u_sunIrradiance", irradiance);
-  program.set("u_groundAlbedo", albedo);
+  // The field of diffuse light has the ground's; without air, or with so little that there is no field, the ground is lit by the sun alone.
+  const bool known = scene.atmosphere && skyModel(scene).ok() && skyModel(scene)->diffuse();
+  program.set("u_groundAlbedo", known ? 0.0f : float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3);
 }
 
 void CloudPasses::setMotion(const gpu::Program& program, const ViewFrame& view) const {

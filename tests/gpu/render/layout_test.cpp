@@ -149,6 +149,7 @@ const std::map<std::string, BlockLayout>& blocks() {
       {"Directions", {{{"directions[0]", 0}}, sizeof(glm::vec4), "directions[0]"}},
       {"Radiance", {{{"radiance[0]", 0}}, sizeof(glm::vec4), "radiance[0]"}},
       {"Moments", {{{"moments[0]", 0}}, sizeof(glm::vec4), "moments[0]"}},
+      {"ChordsOut", {{{"chordsOut[0]", 0}}, sizeof(glm::u16vec2), "chordsOut[0]"}},
       {"Answers", {{{"answers[0]", 0}}, sizeof(glm::vec4), "answers[0]"}},
       {"Paths",
        {{{"paths[0].anchor", 0}, {"paths[0].rest", 16}, {"paths[0].ends[0]", 32}}, 32 + 16 * sizeof(float), "paths[0].anchor"}},
