@@ -90,14 +90,16 @@ struct Gathered { float sun, open, all, weighted; };
 // A sample as its rule weighs it: extinction [1/m], source of sunlight and share of the sky's.
 struct Node { float extinction_per_m; float sun, sky; };
 
-// Where a ray's zenith angles change: cosines are (at + distance * along) / radius, of sun and ray.
-struct Zenith { float sunAt_m, sunAlong, viewAt_m, radius_m; };
+// The point where a ray meets the clouds' shell, times the sun's direction, the ray's, and itself; cosine between sun and ray: what zenith
+// angles along it follow from.
+struct Zenith { float sunAt_m, viewAt_m, square_m2, cosine; };
 
 Node nodeAt(BrickPath path, float s, float distance_m, Zenith zenith, CloudPhases phases, out CloudSlab slab) {
   vec4 data = sampleField(path, s);
   watchSample(data.x * tree.maxExtinction_per_m);
-  float muSun = (zenith.sunAt_m + distance_m * zenith.sunAlong) / zenith.radius_m, muView = (zenith.viewAt_m + distance_m) / zenith.radius_m;
-  slab = cloudSlab(decodeDepth(data.z), decodeDepth(data.w), muSun, muView, zenith.sunAlong);
+  float upwards = inversesqrt(zenith.square_m2 + distance_m * (2.0 * zenith.viewAt_m + distance_m));
+  float muSun = (zenith.sunAt_m + distance_m * zenith.cosine) * upwards, muView = (zenith.viewAt_m + distance_m) * upwards;
+  slab = cloudSlab(decodeDepth(data.z), decodeDepth(data.w), muSun, muView, zenith.cosine);
   float tau = decodeDepth(data.y);
   return Node(data.x * tree.maxExtinction_per_m, sunSource(phases, tau, slab), openShare(tau, slab));
 }
@@ -116,7 +118,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   CloudRay ray = CloudRay(0.0, 0.0, 0.0, 1.0, ground_m >= 0.0 ? ground_m : kSkyDistance_m, 0u, 0u, false);
   Segment segment = cloudSegment(position, altitude, r, radius, dir, ground_m);
   if (segment.near >= segment.far) return ray;
-  Walk walk = startWalk(position + dvec3(dir) * double(segment.near), dir);
+  dvec3 entry = position + dvec3(dir) * double(segment.near);
+  Walk walk = startWalk(entry, dir);
   float t = 0.0, end = segment.far - segment.near;
   float cellsAlong = 7.0 * max(abs(walk.dirSteps.x), max(abs(walk.dirSteps.y), abs(walk.dirSteps.z)));  // times 1 / size: cells a metre
   float entryHalf_m = 0.5 * max(segment.near, tree.sampleNear_m) / tree.detail;
@@ -124,7 +127,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   // The last midpoint. At first: from above lit through nothing; else none, for a camera may be inside a cloud, or see its dark side first.
   bool fromAbove = altitude > double(tree.bandTop_m);
   Node before = Node(-1.0, 0.0, 0.0);
-  Zenith zenith = Zenith(float(dot(position, dvec3(tree.sunDir.xyz))), dot(dir, tree.sunDir.xyz), float(dot(position, dvec3(dir))), float(radius));
+  Zenith zenith = Zenith(float(dot(entry, dvec3(tree.sunDir.xyz))), float(dot(entry, dvec3(dir))), float(dot(entry, entry)), dot(dir, tree.sunDir.xyz));
   CloudSlab slab;
   int visit = 0;
   // Every loop ends with its condition, and both sides of an `if` are cheap: software GL runs a loop's body once however it begins,
@@ -171,7 +174,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
     // inside the parent: half the cells, from 0 or 3.5
     path.parentLocal = 0.5 * path.local + 3.5 * vec3(walkOctant(walk, t, level));
     uint perSample = path.parentWeight > 0.0 ? 2u : 1u;
-    float upright = min(abs(zenith.viewAt_m + away) / zenith.radius_m, 1.0);  // zenith cosine of the ray, either way
+    float upright = min(abs(zenith.viewAt_m + t) / float(radius), 1.0);  // zenith cosine of the ray, either way
     StepPlace place = StepPlace(span, 0.5 * levelSteps(level) * tree.stepLength_m, span * cellsAlong * perStep * (2.0 / 7.0), path.parentWeight, upright,
                                 maxCodeValue(wordMaxCode(bounding)) * tree.maxExtinction_per_m * span, ray.transmittance, t, end, entryHalf_m,
                                 0.5 * max(away, tree.sampleNear_m) / tree.pixelDetail);
@@ -181,7 +184,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
     float i = integratorNode(INTEGRATOR, 0u);
     do {
       float s = i * dt;
-      Node node = nodeAt(path, s, away + s, zenith, phases, slab);
+      Node node = nodeAt(path, s, t + s, zenith, phases, slab);
       ray.samples += perSample;
       SegmentGains g = segmentGains(INTEGRATOR, vec4(node.extinction_per_m, 0.0, 0.0, 0.0), dt);
       gather(sum, ray.transmittance * g.gain.x, node, t + s);
@@ -201,7 +204,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
 #else
     float dt = span / segmentCount(STEP_RULE, tree.step, place);
 #endif
-    Node front = nodeAt(path, 0.0, away, zenith, phases, slab);
+    Node front = nodeAt(path, 0.0, t, zenith, phases, slab);
     ray.samples += perSample;
     float s = 0.0;
     bool more;
@@ -211,7 +214,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       Node nodes[4];
       nodes[0] = front;
       for (uint i = 1u; i < 4u; ++i) {
-        if (i <= last) nodes[i] = nodeAt(path, s + integratorNode(INTEGRATOR, i) * length_m, away + s + integratorNode(INTEGRATOR, i) * length_m, zenith, phases, slab);
+        if (i <= last) nodes[i] = nodeAt(path, s + integratorNode(INTEGRATOR, i) * length_m, t + s + integratorNode(INTEGRATOR, i) * length_m, zenith, phases, slab);
         else nodes[i] = Node(0.0, 0.0, 0.0);
       }
       ray.samples += last * perSample;
