@@ -63,6 +63,7 @@ struct BrickPath {
   float parentWeight;
   vec3 local, parentLocal;  // where the ray enters, in cells
   vec3 slope;               // cells a metre; half as many in the parent
+  float cell_m;             // a voxel's edge
 };
 
 // Density fraction, encoded sun depth and chords, a distance s into the brick; light belongs to the density that it was stored with.
@@ -99,7 +100,8 @@ Node nodeAt(BrickPath path, float s, float distance_m, Zenith zenith, CloudPhase
   watchSample(data.x * tree.maxExtinction_per_m);
   float upwards = inversesqrt(zenith.square_m2 + distance_m * (2.0 * zenith.viewAt_m + distance_m));
   float muSun = (zenith.sunAt_m + distance_m * zenith.cosine) * upwards, muView = (zenith.viewAt_m + distance_m) * upwards;
-  slab = cloudSlab(decodeDepth(data.z), decodeDepth(data.w), muSun, muView, zenith.cosine);
+  float own = ownChord(data.x * tree.maxExtinction_per_m, path.cell_m);
+  slab = cloudSlab(max(decodeDepth(data.z), own), max(decodeDepth(data.w), own), muSun, muView, zenith.cosine);
   float tau = decodeDepth(data.y);
   return Node(data.x * tree.maxExtinction_per_m, sunSource(phases, tau, slab), openShare(tau, slab));
 }
@@ -127,7 +129,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
   // The last midpoint. At first: from above lit through nothing; else none, for a camera may be inside a cloud, or see its dark side first.
   bool fromAbove = altitude > double(tree.bandTop_m);
   Node before = Node(-1.0, 0.0, 0.0);
-  Zenith zenith = Zenith(float(dot(entry, dvec3(tree.sunDir.xyz))), float(dot(entry, dvec3(dir))), float(dot(entry, entry)), dot(dir, tree.sunDir.xyz));
+  vec3 sun = tree.sunDir.xyz;
+  Zenith zenith = Zenith(float(dot(entry, dvec3(sun))), float(dot(entry, dvec3(dir))), float(dot(entry, entry)), dot(dir, sun));
   CloudSlab slab;
   int visit = 0;
   // Every loop ends with its condition, and both sides of an `if` are cheap: software GL runs a loop's body once however it begins,
@@ -171,6 +174,7 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
     float perStep = levelStepsInverse(level);
     path.local = steps * (7.0 * perStep);
     path.slope = walk.dirSteps * (7.0 * perStep);
+    path.cell_m = levelSteps(level) * tree.stepLength_m / 7.0;
     // inside the parent: half the cells, from 0 or 3.5
     path.parentLocal = 0.5 * path.local + 3.5 * vec3(walkOctant(walk, t, level));
     uint perSample = path.parentWeight > 0.0 ? 2u : 1u;
@@ -214,7 +218,8 @@ CloudRay marchClouds(dvec3 position, double altitude, double r, double radius, v
       Node nodes[4];
       nodes[0] = front;
       for (uint i = 1u; i < 4u; ++i) {
-        if (i <= last) nodes[i] = nodeAt(path, s + integratorNode(INTEGRATOR, i) * length_m, t + s + integratorNode(INTEGRATOR, i) * length_m, zenith, phases, slab);
+        float along = s + integratorNode(INTEGRATOR, i) * length_m;
+        if (i <= last) nodes[i] = nodeAt(path, along, t + along, zenith, phases, slab);
         else nodes[i] = Node(0.0, 0.0, 0.0);
       }
       ray.samples += last * perSample;

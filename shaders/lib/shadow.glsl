@@ -2,9 +2,6 @@
 #include "welkin/shared/camera.glsl.h"
 #include "lib/walk.glsl"
 
-#ifndef CHORD_SAMPLES
-#define CHORD_SAMPLES 7
-#endif
 #ifndef LIGHT_REACH  // others for comparisons (RenderSettings::light)
 #define LIGHT_REACH 1.5
 #define LIGHT_NODE_SAMPLES 2
@@ -12,7 +9,8 @@
 const float kShadowReach = LIGHT_REACH;     // a node is sampled up to this many times its size from the start of the ray: voxels of 1/10 distance
 const float kOpaque = 200.0;        // optical depth past which no light is left: exp(-200 / 4) in the widest octave
 const int kMaxVisits = 256;         // well over the worst case of 30 levels of 6 cells
-const float kChordReach_m = 32e3;   // of a chord, away from the sun: farther cloud is no neighbour
+const int kChordSamples = 7;         // of a node: one a voxel
+const float kChordReach_m = 32e3;   // of a chord, besides its brick: farther cloud is no neighbour
 
 // Between two distances along a ray, from levels down to `finest` with so many midpoint samples in each node.
 float depthBetween(dvec3 start_planet, vec3 dir, float t, float end, uint finest, int samples) {
@@ -72,8 +70,8 @@ float sunDepth(dvec3 start_planet, float skip_m) {
 }
 
 // Of half a chord: from a point on in one direction.
-float chordDepth(dvec3 start_planet, vec3 dir, uint finest) {
+float chordDepth(dvec3 start_planet, vec3 dir, uint finest, float brick_m) {
   bool ends;
   Interval part = cloudyPart(start_planet, dir, ends);
-  return depthBetween(start_planet, dir, part.near, min(part.far, kChordReach_m), finest, CHORD_SAMPLES);
+  return depthBetween(start_planet, dir, part.near, min(part.far, kChordReach_m + brick_m), finest, kChordSamples);
 }

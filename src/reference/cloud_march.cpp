@@ -56,8 +56,8 @@ struct Integrand {
   // Of the sun's and the sky's light at a distance.
   glm::dvec2 sources(double t, const CloudSample& sample) const {
     const glm::dvec3 up = glm::normalize(start + direction * t);
-    const CloudSlab slab = cloudSlab(decodeDepth(sample.sunChord), decodeDepth(sample.upChord), glm::dot(up, towardsSun), glm::dot(up, direction),
-                                     glm::dot(direction, towardsSun));
+    const CloudSlab slab = cloudSlab(decodeDepth(sample.sunChord), decodeDepth(sample.upChord), glm::dot(up, towardsSun),
+                                     glm::dot(up, direction), glm::dot(direction, towardsSun));
     const double tau = decodeDepth(sample.encodedDepth);
     return {sunSource(phases, tau, slab), openShare(tau, slab)};
   }
@@ -124,7 +124,8 @@ CloudTruth marchClouds(const CloudField& field, const CameraRay& ray, double tol
   const auto along = field.along(ray, stretch.near);
   const double end = stretch.far - stretch.near;
   const glm::dvec3 sun = field.towardsSun();
-  const Integrand integrand{*along, cloudPhases(glm::dot(ray.direction, sun)), end, ray.position_planet + ray.direction * stretch.near, ray.direction, sun};
+  const Integrand integrand{
+      *along, cloudPhases(glm::dot(ray.direction, sun)), end, ray.position_planet + ray.direction * stretch.near, ray.direction, sun};
   Sum sum;
   for (double t = 0; t < end && sum.transmittance >= kNothingLeft;) {
     const double next = along->enter(t, end);

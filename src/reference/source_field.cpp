@@ -67,7 +67,8 @@ SourceWalk::SourceWalk(const DensitySource& source, const RootFrame& root, const
   restart(start_planet, direction);
 }
 
-// A direction that drifts across the whole root by less than a step past a face is parallel to the face: else a ray within it would crawl along.
+// A direction that drifts across the whole root by less than a step past a face is parallel to the face: else a ray within it would crawl
+// along.
 void SourceWalk::restart(glm::dvec3 start_planet, glm::dvec3 direction) {
   start_ = start_planet, direction_ = direction;
   for (int a = 0; a < 3; ++a)
@@ -166,9 +167,9 @@ double SourceField::sunDepth(glm::dvec3 position_planet) const {
 
 double SourceField::halfChord(glm::dvec3 position_planet, glm::dvec3 direction) const {
   const CameraRay ray = reference::rayFrom(position_planet, direction, root_.planetRadius_m);
-  const double leak = kLeakVoxels / 7 * root_.nodeSize_m(settings_.detail.level(glm::length(position_planet - settings_.eye_planet)));
-  Stretch s = shellStretch(ray, -2 * root_.planetRadius_m, source_.top_m() + leak);
-  s.far = std::min(s.far, kChordReach_m);
+  const double node_m = root_.nodeSize_m(settings_.detail.level(glm::length(position_planet - settings_.eye_planet)));
+  Stretch s = shellStretch(ray, -2 * root_.planetRadius_m, source_.top_m() + kLeakVoxels / 7 * node_m);
+  s.far = std::min(s.far, kChordReach_m + node_m);
   if (s.empty()) return 0;
   SourceWalk walk(source_, root_, settings_, position_planet, direction);
   return std::min(depthWithin(walk, s, kOpaqueDepth), kOpaqueDepth);

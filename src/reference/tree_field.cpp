@@ -75,7 +75,8 @@ class TreeAlong final : public CloudAlong {
       if (a + b > 0) own += (parent - own) * (b / (a + b));
       own.x = a + b;
     }
-    return {std::max(own.x, 0.0) * density_per_m_, own.y, own.z, own.w};
+    const double density = std::max(own.x, 0.0) * density_per_m_, least = encodeDepth(ownChord(density, cell_m_));
+    return {density, own.y, std::max(own.z, least), std::max(own.w, least)};
   }
 
  private:
@@ -87,6 +88,7 @@ class TreeAlong final : public CloudAlong {
     nodeEmpty_ = above.empty;
     const std::uint32_t level = nodeEmpty_ ? above.level : node.level;
     corner_ = glm::dvec3(shared::nodeCorner(p, level)), size_ = std::ldexp(kStepsOfRoot, -int(level));
+    cell_m_ = size_ / (7 * field_.data().block.stepsPerMetre);
     cells_ = (start_ - corner_) * (7 / size_), cellsPerMetre_ = slope_ * (7 / size_);
     brick_ = node.brick, parentBrick_ = above.brick;
     if (!faded_) return;
@@ -114,7 +116,7 @@ class TreeAlong final : public CloudAlong {
   glm::dvec3 start_, slope_;  // of the ray, in fixed-point steps
   // the node that is visited: which level was wanted, its cube in steps, the ray in cells of its brick, the parent's part
   std::uint32_t want_ = 0, brick_ = 0, parentBrick_ = 0;
-  double size_ = 0, weight_ = 0;
+  double size_ = 0, cell_m_ = 0, weight_ = 0;
   bool asked_ = false, faded_ = false, nodeEmpty_ = true, empty_ = true;
   glm::dvec3 corner_{}, cells_{}, cellsPerMetre_{}, half_{};
   Cell own_, parent_;

@@ -56,7 +56,7 @@ struct Renderer::Impl {
   }
 
   gpu::Context& context;
-  Scene given;
+  Scene given;  // at its time 0, in the planet's frame
   RenderSettings settings;
   // All is drawn in the frame in which the clouds rest: the planet's, turned by their mean wind. Air is the same all around; only the
   // ground's picture knows of it.

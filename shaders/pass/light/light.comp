@@ -6,19 +6,18 @@
 // in a deck thinner than a voxel too. Three half chords a corner, the fourth being the way to the sun: 24 rays.
 #include "lib/brick_image.glsl"
 #include "lib/shadow.glsl"
-#define CHORD_COARSER 1u
-#define CHORD_SAMPLES 7
 #ifndef LIGHT_NEAR_SAMPLES
 #define LIGHT_NEAR_SAMPLES 3
 #endif
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
 layout(std430, binding = WK_BRICK_JOBS_BINDING) readonly buffer Jobs { GpuBrickJob jobs[]; };
-layout(std430, binding = WK_CHORDS_BINDING) writeonly buffer ChordsOut { uint chordsOut[]; };  // 8 a brick: packChords
+layout(std430, binding = WK_CHORDS_BINDING) writeonly buffer ChordsOut { uint chordsOut[]; };  // 8 a brick, x fastest
 uniform uint u_firstJob;
 
 const float kNearCells = 7.0 / 3.0;  // one spacing of the lattice
 const int kNearSamples = LIGHT_NEAR_SAMPLES;
+const uint kChordCoarser = 1u;       // levels above the brick's own: voxels that filter what lies between corners
 
 shared float s_far[4][4][4];
 shared float s_cornerSun[8];    // optical depth towards the sun at corners
@@ -72,9 +71,10 @@ void main() {
   if (kind < 3u) {
     dvec3 at = start - dvec3(l) * (size_m / double(3.0)) + dvec3(corner & 1u, (corner >> 1u) & 1u, corner >> 2u) * size_m;
     vec3 up = vec3(at / length(at));
-    s_halfChord[kind][corner] = chordDepth(at, kind == 0u ? -tree.sunDir.xyz : kind == 1u ? up : -up, max(job.level, CHORD_COARSER) - CHORD_COARSER);
+    vec3 dir = kind == 0u ? -tree.sunDir.xyz : kind == 1u ? up : -up;
+    s_halfChord[kind][corner] = chordDepth(at, dir, max(job.level, kChordCoarser) - kChordCoarser, float(size_m));
   }
   barrier();
-  if (ray < 8u)
-    chordsOut[8u * job.brick + ray] = packUnorm2x16(vec2(encodeDepth(s_cornerSun[ray] + s_halfChord[0][ray]), encodeDepth(s_halfChord[1][ray] + s_halfChord[2][ray])));
+  float sunChord = s_cornerSun[corner] + s_halfChord[0][corner], upChord = s_halfChord[1][corner] + s_halfChord[2][corner];
+  if (ray < 8u) chordsOut[8u * job.brick + ray] = packUnorm2x16(vec2(encodeDepth(sunChord), encodeDepth(upChord)));
 }

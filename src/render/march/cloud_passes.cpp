@@ -54,8 +54,10 @@ Result<CloudPasses> CloudPasses::create(gpu::MemoryAccount& account, const Resid
   if (auto made = passes.createTargets(account, width, height); !made) return made.error();
   const auto onOff = [](bool on) { return std::string(on ? "1" : "0"); };
   passes.defines_ = tree.defines();
-  passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)}, {"OPT_GROUND", onOff(plan.ground && plan.sun)},
-                                                 {"OPT_AUX", onOff(plan.aux)}, {"OPT_HISTORY", onOff(plan.history)}});
+  passes.defines_.insert(passes.defines_.end(), {{"OPT_AIR", onOff(plan.air)},
+                                                 {"OPT_GROUND", onOff(plan.ground && plan.sun)},
+                                                 {"OPT_AUX", onOff(plan.aux)},
+                                                 {"OPT_HISTORY", onOff(plan.history)}});
   if (auto used = passes.use(account, quality); !used) return used.error();
   if (!plan.history) return passes;
   auto reproject = gpu::Program::compute("pass/reproject/reproject.comp");
@@ -99,7 +101,8 @@ Result<void> CloudPasses::resize(gpu::MemoryAccount& account, int width, int hei
 
 Result<void> CloudPasses::createList(gpu::MemoryAccount& account) {
   if (pixels_.id()) return {};
-  auto pixels = gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width_) * std::size_t(height_) * 4, GL_DYNAMIC_STORAGE_BIT, true);
+  auto pixels =
+      gpu::Buffer::create(account, "pixel list", 16 + std::size_t(width_) * std::size_t(height_) * 4, GL_DYNAMIC_STORAGE_BIT, true);
   if (!pixels) return pixels.error();
   pixels_ = std::move(*pixels);
   return {};
@@ -114,7 +117,8 @@ Result<void> CloudPasses::use(gpu::MemoryAccount& account, const Quality& qualit
     march_->list = std::move(*list);
   }
   if (spread_.valid()) return {};
-  auto spread = gpu::Program::compute("pass/spread/spread.comp", {{"OPT_AUX", aux_[0].id() ? "1" : "0"}, {"OPT_HISTORY", history_ ? "1" : "0"}});
+  auto spread =
+      gpu::Program::compute("pass/spread/spread.comp", {{"OPT_AUX", aux_[0].id() ? "1" : "0"}, {"OPT_HISTORY", history_ ? "1" : "0"}});
   if (!spread) return spread.error();
   spread_ = std::move(*spread);
   return {};
@@ -177,13 +181,15 @@ void CloudPasses::marchWhole(const Scene& scene, std::optional<double> seen_ev, 
     spread_.set("u_exposure", float(std::exp2(*seen_ev)));
     spread_.set("u_spread", float(scene.quality.spread / 255));
     spread_.dispatch(groups(width_, 8 * spacing), groups(height_, 8 * spacing));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
     marchList(target);
   }
 }
 
 void CloudPasses::setLight(const gpu::Program& program, const Scene& scene) const {
-  const glm::vec3 irradiance = scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
+  const glm::vec3 irradiance =
+      scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
   program.set("u_sunIrradiance", irradiance);
   // The field of diffuse light has the ground's; without air, or with so little that there is no field, the ground is lit by the sun alone.
   const bool known = scene.atmosphere && skyModel(scene).ok() && skyModel(scene)->diffuse();

@@ -90,7 +90,9 @@ TEST(CloudMarch, SlopesAndJumps) {
   Told jump;
   jump.length_m = 100;
   jump.breaks = {40};
-  jump.sample = [](double t) { return t < 40 ? CloudSample{1e-4, 0, kChord, kChord} : CloudSample{100, encodeDepth(100 * (t - 40)), kChord, kChord}; };
+  jump.sample = [](double t) {
+    return t < 40 ? CloudSample{1e-4, 0, kChord, kChord} : CloudSample{100, encodeDepth(100 * (t - 40)), kChord, kChord};
+  };
   const CloudTruth j = marchClouds(jump, anyRay(), 1e-9);
   double behind = 0;  // the edge, over the light that is taken away
   const int n = 2'000'000;
@@ -208,10 +210,12 @@ TEST(CloudMarch, TreeAgreesWithPlainSteps) {
       const double share = a + b > 0 ? b / (a + b) : 0, encoded = glm::mix(child.y, root.y, share);
       const glm::dvec2 chord = glm::mix(chordsAt(tree, 2 + octant, childAt), chordsAt(tree, 1, at), share);
       const glm::dvec3 up = glm::normalize(from + dir * t);
-      const CloudSlab slab = cloudSlab(decodeDepth(chord.x), decodeDepth(chord.y), glm::dot(up, field.towardsSun()), glm::dot(up, dir),
-                                       glm::dot(dir, field.towardsSun()));
+      const double own = ownChord((a + b) * 0.004f, (octant == 3 ? 2200 : 1100) / 7.0);  // the empty child: its parent's voxels
+      const CloudSlab slab = cloudSlab(std::max(decodeDepth(chord.x), own), std::max(decodeDepth(chord.y), own),
+                                       glm::dot(up, field.towardsSun()), glm::dot(up, dir), glm::dot(dir, field.towardsSun()));
       const double kept = light * std::exp(-(a + b) * 0.004f * dt), gain = light - kept;
-      sun += gain * sunSource(phases, decodeDepth(encoded), slab), open += gain * openShare(decodeDepth(encoded), slab), weighted += gain * t;
+      sun += gain * sunSource(phases, decodeDepth(encoded), slab), open += gain * openShare(decodeDepth(encoded), slab),
+          weighted += gain * t;
       light = kept;
     }
     thick += light < 0.5;

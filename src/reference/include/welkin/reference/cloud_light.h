@@ -30,6 +30,7 @@ struct CloudPhases {
 };
 inline CloudPhases cloudPhases(double cosTheta) { return {cloudPhase(cosTheta, 1), cloudPhase(cosTheta, kBroadened)}; }
 
+inline double ownChord(double extinction_per_m, double voxel_m) { return double(shared::kOwnVoxels) * extinction_per_m * voxel_m; }
 struct CloudSlab {
   double slant, depth, normal;
 };

@@ -59,7 +59,7 @@ class SourceField final : public CloudField {
   std::uint64_t contentHash() const override;
   // Optical depth from a point towards the sun, at most kOpaqueDepth, which it is behind the planet too.
   double sunDepth(glm::dvec3 position_planet) const;
-  // Of the whole lines through a point, along the sun's direction and upright: farther away from the sun than kChordReach_m nothing counts.
+  // Of the whole lines through a point, along the sun's direction and upright: farther away than kChordReach_m and a node nothing counts.
   glm::dvec2 chords(glm::dvec3 position_planet, double sunDepth) const;
   // Optical depth of a ray up to where it leaves the clouds, meets the ground, or to a distance.
   double opticalDepth(const CameraRay& ray, double most_m) const;

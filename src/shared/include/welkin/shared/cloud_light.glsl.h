@@ -1,7 +1,8 @@
 #pragma once
-// How sun and sky light a point inside a cloud, from four numbers: optical depth towards the sun; of the whole straight lines through the point,
-// along the sun's direction and upright (the cloud's chords); and the sun's height. Held against a path tracer in docs/reference.md. All are per
-// unit of irradiance, in 1/sr: multiplied by extinction and path length they give radiance (droplets do not absorb visible light: albedo 1).
+// How sun and sky light a point inside a cloud, from four numbers: its optical depth towards the sun; those of the whole straight lines
+// through it, along the sun's direction and upright (the cloud's chords); and the sun's height (docs/decisions/0019). Held against a path
+// tracer in docs/reference.md. All are per unit of irradiance, in 1/sr: multiplied by extinction and path length they give radiance
+// (droplets do not absorb visible light: albedo 1).
 #include "welkin/shared/phase.glsl.h"
 #include "welkin/shared/sun_depth.glsl.h"
 WK_BEGIN
@@ -33,6 +34,10 @@ struct CloudSlab {
   float normal;  // cosine between normal and the view ray's direction
 };
 WK_CONST float kLeastSlant = F(0.05);
+// Chords are kept at the corners of bricks, and a cloud of a few voxels may lie between: at a point of it its chord is that of about so many
+// voxels of its density. Measured (docs/decisions/0019): least error against chords of every point's own.
+WK_CONST float kOwnVoxels = F(1.5);
+WK_FN float ownChord(float extinction_per_m, float voxel_m) { return kOwnVoxels * extinction_per_m * voxel_m; }
 // Depths of both chords; cosines of the sun's and the ray's zenith angles, and between both.
 WK_FN CloudSlab cloudSlab(float sunChord, float upChord, float muSun, float muView, float cosTheta) {
   float deck = clamp(muSun, kLeastSlant, F(1.0));
