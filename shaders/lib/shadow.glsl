@@ -7,9 +7,9 @@
 #define LIGHT_NODE_SAMPLES 2
 #endif
 const float kShadowReach = LIGHT_REACH;     // a node is sampled up to this many times its size from the start of the ray: voxels of 1/10 distance
-const float kOpaque = 200.0;        // optical depth past which no light is left: exp(-200 / 4) in the widest octave
+const float kOpaque = 200.0;        // optical depth past which no beam is left (exp(-0.3 * 200)), and of diffuse light a fiftieth
 const int kMaxVisits = 256;         // well over the worst case of 30 levels of 6 cells
-const int kChordSamples = 7;         // of a node: one a voxel
+const int kChordSamples = 7;        // of a node: one a voxel
 const float kChordReach_m = 32e3;   // of a chord, besides its brick: farther cloud is no neighbour
 
 // Between two distances along a ray, from levels down to `finest` with so many midpoint samples in each node.

@@ -209,9 +209,9 @@ void StreamState::Impl::writeOut(FrameEdits& edits, const FrameInput& input, boo
   relight.sun(input.toSun, steps);
   relight.lit(tree, changes.shown, steps, !input.snap);  // a cut lights all at its end: each once
   relight.take(tree, steps, edits.light);
-  // With nothing else to do as much as is generated otherwise for a sun that moved or a cut, else at leisure; while bricks come, half of that
-  // for a sun that moved, and as much again as half of what is lit anyway. Not so on the way: old light is that of another tree, seen from elsewhere, and making it anew would be seen (pops
-  // of 11 instead of 3 of 255 in the recorded descent).
+  // With nothing else to do: for a sun that moved, or a cut, as much as is generated otherwise; else at leisure. While bricks come: half of what
+  // is generated, for a sun that moved, and half of what is lit anyway. Of that nothing on the way: old light is that of another tree, seen
+  // from elsewhere, and making it anew would be seen (pops of 11 instead of 3 of 255 in the recorded descent).
   const std::uint32_t more = motion.changed() ? 0 : std::uint32_t(edits.light.size()) / 2;
   const std::uint32_t leisure = relight.sunMoved() || input.snap ? input.maxBricks : std::min(input.maxBricks, kAtLeisure);
   std::uint32_t most = idle ? leisure : std::max(more, relight.sunMoved() ? input.maxBricks / 2 : 0);

@@ -192,7 +192,8 @@ void CloudPasses::setLight(const gpu::Program& program, const Scene& scene) cons
       scene.sun ? glm::vec3(scene.sun->irradiance[0], scene.sun->irradiance[1], scene.sun->irradiance[2]) : glm::vec3(0);
   program.set("u_sunIrradiance", irradiance);
   // The field of diffuse light has the ground's; without air, or with so little that there is no field, the ground is lit by the sun alone.
-  const bool known = scene.atmosphere && skyModel(scene).ok() && skyModel(scene)->diffuse();
+  const auto model = scene.atmosphere ? skyModel(scene) : Error{"no air"};
+  const bool known = model.ok() && model->diffuse();
   program.set("u_groundAlbedo", known ? 0.0f : float(scene.planet.albedo[0] + scene.planet.albedo[1] + scene.planet.albedo[2]) / 3);
 }
 

@@ -38,12 +38,29 @@ TEST(CloudLight, SlabsAreAsBrightAsPathsMakeThem) {
     const CloudPathTracer tracer(air, *slab, kRoot, kFine);
     PathSettings settings;
     settings.relativeError = 0.03, settings.maxPaths = 20'000;
-    const double truth = tracer.estimate(ray, settings).mean[1];
+    const Estimate paths = tracer.estimate(ray, settings);
+    const double truth = paths.mean[1];
+    EXPECT_LT(paths.standardError[1], 0.1 * truth);
     const SourceField field(*slab, kRoot, {.detail = kFine, .eye_planet = ray.position_planet, .towardsSun = ray.towardsSun});
     const double model = marchClouds(field, rayFrom(ray.position_planet, ray.direction, R), 1e-4).sun;
-    std::printf("depth %g, sun %g, view %g: %.4f of %.4f, %.2f\n", c.depth, c.sun_deg, c.view_deg, model, truth, model / truth);
+    std::printf("depth %g, sun %g, view %g: %.4f of %.4f +- %.4f, %.2f\n", c.depth, c.sun_deg, c.view_deg, model, truth, paths.standardError[1],
+                model / truth);
     EXPECT_LT(std::abs(std::log(model / truth)), std::log(1.4));
   }
+}
+
+// What the bound of stress pictures takes for granted (src/measure/stress_judges.cpp).
+TEST(CloudLight, DiffuseLightIsBounded) {
+  double most = 0;
+  for (double depth = 1e-3; depth < 1000; depth *= 1.5)
+    for (const double mu : {0.05, 0.2, 0.5, 0.8, 1.0})
+      for (const double normal : {-1.0, -0.5, 0.0, 0.5, 1.0})
+        for (int i = 0; i <= 100; ++i) {
+          const CloudSlab slab{mu, kSimilar * depth, normal};
+          most = std::max(most, sunSource({0, 0}, depth / mu * i / 100, slab));
+        }
+  EXPECT_LT(most, 1.3 / std::numbers::pi);
+  EXPECT_GT(most, 1.0 / std::numbers::pi) << "which is not far above";
 }
 
 // One droplet alone scatters once.

@@ -87,7 +87,7 @@ TEST(SourceField, VoxelsComeToTheBall) {
     EXPECT_LT(worst, 0.6 * last);
     last = worst;
   }
-  EXPECT_LT(last, 0.06) << "most of it are chords, linear between the corners of bricks half as large as the ball; 0.002 without them";
+  EXPECT_LT(last, 0.06) << "most of it are chords, linear between the corners of bricks half as large as the ball; 0.002 where light knew the sun's depth alone";
 }
 
 // A uniform shell: depth to the sun is extinction times the way to its top; vertical transmittance from space.

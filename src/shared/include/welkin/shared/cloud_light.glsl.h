@@ -33,7 +33,7 @@ struct CloudSlab {
   float depth;   // across it, times kSimilar
   float normal;  // cosine between normal and the view ray's direction
 };
-WK_CONST float kLeastSlant = F(0.05);
+WK_CONST float kLeastSlant = F(0.05);  // a sun 3 degrees high: under a lower one it is a deck's own slopes that are lit
 // Chords are kept at the corners of bricks, and a cloud of a few voxels may lie between: at a point of it its chord is that of about so many
 // voxels of its density. Measured (docs/decisions/0019): least error against chords of every point's own.
 WK_CONST float kOwnVoxels = F(1.5);
